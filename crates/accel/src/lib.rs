@@ -1,0 +1,4 @@
+//! Spatial indices: which surface a ray meets first, and which points lie near a point.
+//!
+//! The only crate of the workspace that may hold `unsafe` and SIMD intrinsics. It is given plain data and
+//! closures and knows nothing of light.

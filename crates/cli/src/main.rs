@@ -1,0 +1,3 @@
+//! The command line of sunfleck.
+#![forbid(unsafe_code)]
+fn main() {}

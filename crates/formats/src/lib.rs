@@ -1,0 +1,2 @@
+//! Scene files to scenes, and images in and out.
+#![forbid(unsafe_code)]

@@ -1,0 +1,2 @@
+//! sunfleck: a renderer of the photon-mapping family.
+#![forbid(unsafe_code)]
