@@ -2,3 +2,7 @@
 //!
 //! The only crate of the workspace that may hold `unsafe` and SIMD intrinsics. It is given plain data and
 //! closures and knows nothing of light.
+
+mod points;
+
+pub use points::{KdTree, Neighbours, PointGrid};
