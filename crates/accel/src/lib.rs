@@ -3,6 +3,12 @@
 //! The only crate of the workspace that may hold `unsafe` and SIMD intrinsics. It is given plain data and
 //! closures and knows nothing of light.
 
+mod aabb;
+mod bvh;
 mod points;
+mod ray;
 
+pub use aabb::Aabb;
+pub use bvh::{Bvh, Counts, Geometry, Instance, Quality, SimdLevel};
 pub use points::{KdTree, Neighbours, PointGrid};
+pub use ray::{Hit, Ray};

@@ -1,0 +1,133 @@
+//! The one node format, and the words that name a node's children.
+
+use glam::Vec3;
+
+/// Children per node.
+pub(super) const WIDTH: usize = 8;
+
+/// A child of a node, packed in 32 bits: bit 31 tells leaf from inner node, bits 28..31 of a leaf its kind, the rest
+/// an index.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(transparent)]
+pub(super) struct Child(pub(super) u32);
+
+/// What a leaf word points at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Leaf {
+    /// `count` consecutive triangle blocks from `first`.
+    Blocks { first: u32, count: u32 },
+    /// One sphere.
+    Sphere(u32),
+    /// One instance of an object.
+    Instance(u32),
+}
+
+impl Child {
+    const LEAF: u32 = 1 << 31;
+    const INDEX: u32 = (1 << 28) - 1;
+    const SPHERE: u32 = 6;
+    const INSTANCE: u32 = 7;
+    /// On the stack only: what was below belongs to world space again.
+    pub(super) const LEAVE_INSTANCE: Self = Self(u32::MAX);
+    /// Most triangle blocks one leaf can name.
+    pub(super) const MAX_BLOCKS: usize = 6;
+    /// Most nodes, blocks, spheres or instances one hierarchy can hold; one less, as the last is a sentinel.
+    pub(super) const MAX_INDEX: usize = Self::INDEX as usize;
+
+    pub(super) const fn inner(node: u32) -> Self {
+        Self(node)
+    }
+
+    pub(super) fn blocks(first: u32, count: u32) -> Self {
+        debug_assert!(count >= 1 && count as usize <= Self::MAX_BLOCKS && first <= Self::INDEX);
+        Self(Self::LEAF | (count - 1) << 28 | first)
+    }
+
+    pub(super) const fn sphere(index: u32) -> Self {
+        Self(Self::LEAF | Self::SPHERE << 28 | index)
+    }
+
+    pub(super) const fn instance(index: u32) -> Self {
+        Self(Self::LEAF | Self::INSTANCE << 28 | index)
+    }
+
+    #[inline(always)]
+    pub(super) const fn is_inner(self) -> bool {
+        self.0 & Self::LEAF == 0
+    }
+
+    /// The index of the node, first block, sphere or instance.
+    #[inline(always)]
+    pub(super) const fn index(self) -> u32 {
+        self.0 & Self::INDEX
+    }
+
+    /// What a leaf points at; only for leaves.
+    #[inline(always)]
+    pub(super) const fn leaf(self) -> Leaf {
+        match self.0 >> 28 & 7 {
+            Self::SPHERE => Leaf::Sphere(self.index()),
+            Self::INSTANCE => Leaf::Instance(self.index()),
+            blocks => Leaf::Blocks { first: self.index(), count: blocks + 1 },
+        }
+    }
+}
+
+/// Eight child boxes in structure-of-arrays form, and the children.
+#[derive(Clone, Copy)]
+#[repr(C, align(64))]
+pub(super) struct Node {
+    /// Planes, ordered min x, max x, min y, max y, min z, max z.
+    pub(super) planes: [[f32; WIDTH]; 6],
+    pub(super) children: [Child; WIDTH],
+}
+
+impl Node {
+    /// A node all of whose boxes are empty, so that no ray enters it.
+    pub(super) const EMPTY: Self = Self {
+        planes: [
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+            [f32::INFINITY; WIDTH],
+            [f32::NEG_INFINITY; WIDTH],
+        ],
+        children: [Child(0); WIDTH],
+    };
+
+    /// Puts a child into `slot`. The box is grown by a few units in the last place: a hit found by the triangle test
+    /// may lie outside the exact box by the rounding of the test, about 2^-24 of the box's extent (see `traverse`).
+    pub(super) fn set(&mut self, slot: usize, lo: Vec3, hi: Vec3, child: Child) {
+        for axis in 0..3 {
+            let slack = (hi[axis] - lo[axis]) * (4.0 * f32::EPSILON);
+            self.planes[2 * axis][slot] = (lo[axis] - slack).next_down();
+            self.planes[2 * axis + 1][slot] = (hi[axis] + slack).next_up();
+        }
+        self.children[slot] = child;
+    }
+}
+
+/// Where the tables of one object start inside the shared ones.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Offsets {
+    pub(super) nodes: u32,
+    pub(super) blocks: u32,
+    pub(super) spheres: u32,
+}
+
+impl Child {
+    /// The same child after its tables were moved.
+    pub(super) fn moved(self, by: Offsets) -> Self {
+        let step = if self.is_inner() {
+            by.nodes
+        } else {
+            match self.leaf() {
+                Leaf::Blocks { .. } => by.blocks,
+                Leaf::Sphere(_) => by.spheres,
+                Leaf::Instance(_) => 0,
+            }
+        };
+        Self(self.0 + step)
+    }
+}
