@@ -10,6 +10,7 @@
 //! machine: no path fuses multiplication and addition.
 
 mod grid;
+mod lanes;
 mod nearest;
 
 pub use grid::PointGrid;

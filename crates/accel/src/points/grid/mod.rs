@@ -1,0 +1,80 @@
+//! All points within a radius: a sparse grid of bricks.
+//!
+//! Space is cut into cells, and 4x4x4 cells make a brick. Only bricks that hold points exist. They sit in a hash table
+//! together with their coordinates, so that two bricks of one hash never mix, and each carries one bit per occupied
+//! cell. Points are sorted by brick, then by cell: a run of cells is a run of slots. A query looks up the few bricks
+//! that its sphere may touch, finds which of their cells it touches by one vector comparison, and tests the runs of
+//! points in those cells sixteen at a time.
+//!
+//! A query of radius `r` is fastest with cells of about `r` to `2 r`, and right with any.
+
+mod brick;
+mod build;
+mod query;
+
+use glam::Vec3;
+
+use super::lanes::Isa;
+use brick::Bricks;
+use query::Query;
+
+/// Points sorted by grid cell, for queries of a fixed radius. Immutable once built.
+pub struct PointGrid {
+    bricks: Bricks,
+    /// First slot of each occupied cell, bricks and cells in the order of slots; then the number of points.
+    starts: Vec<u32>,
+    /// The coordinates by slot, and padding so that sixteen values can be read from any slot.
+    coords: [Vec<f32>; 3],
+    order: Vec<u32>,
+    isa: Isa,
+}
+
+impl PointGrid {
+    /// Sorts `points` into cells of edge `cell` (world units). Points that are not finite are left out.
+    ///
+    /// # Panics
+    /// If `cell` is not positive and finite, or if there are more than `u32::MAX` points.
+    pub fn build(points: &[Vec3], cell: f32) -> Self {
+        assert!(cell > 0.0 && cell.is_finite(), "a cell has a positive, finite edge, not {cell}");
+        assert!(u32::try_from(points.len()).is_ok(), "more than u32::MAX points");
+        build::build(points, cell)
+    }
+
+    /// Calls `visit(index, d2)` once for each point with squared distance `d2 <= r * r` from `p`, in an order that
+    /// depends only on the points, `cell`, `p` and `r`. `index` counts in the slice given to `build`. A negative or
+    /// NaN `r`, or a `p` that is not finite, finds nothing.
+    #[inline]
+    pub fn within(&self, p: Vec3, r: f32, mut visit: impl FnMut(u32, f32)) {
+        self.within_slots(p, r, |slot, d2| visit(self.order[slot as usize], d2));
+    }
+
+    /// As [`Self::within`], but passes the slot, which is the point's place in [`Self::order`].
+    #[inline]
+    pub fn within_slots(&self, p: Vec3, r: f32, visit: impl FnMut(u32, f32)) {
+        if p.is_finite() && r >= 0.0 {
+            self.isa.run(Query::new(self, p, r, visit));
+        }
+    }
+
+    /// For each slot, the index of its point in the slice given to `build`. A caller that stores its payload in this
+    /// order reads it nearly in sequence from [`Self::within_slots`].
+    pub fn order(&self) -> &[u32] {
+        &self.order
+    }
+
+    /// The number of points kept, which is the number of finite ones.
+    pub fn len(&self) -> usize {
+        self.order.len()
+    }
+
+    /// Whether no point was kept.
+    pub fn is_empty(&self) -> bool {
+        self.order.is_empty()
+    }
+
+    /// Heap memory held, in bytes.
+    pub fn memory_bytes(&self) -> usize {
+        let coords: usize = self.coords.iter().map(|c| size_of_val(c.as_slice())).sum();
+        coords + size_of_val(self.order()) + size_of_val(self.starts.as_slice()) + self.bricks.memory_bytes()
+    }
+}
