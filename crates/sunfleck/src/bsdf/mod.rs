@@ -1,0 +1,156 @@
+//! Scattering at a surface: how much of the light from `wi` leaves to `wo`, and where to look next.
+//!
+//! A *material* is what the scene stores (colours are textures); at a hit it is resolved to a *closure*, a small `Copy`
+//! value with the textures looked up, which a light vertex or a gather point may keep for a whole pass.
+//! To add a model: write `bsdf/<name>.rs` with its material and its closure (implementing [`Scatter`] and [`Model`]), and
+//! add one line to `models!` below; the contract tests run over the whole list.
+mod diffuse;
+
+pub use diffuse::{Diffuse, DiffuseMaterial};
+
+use crate::{
+    math::Local,
+    spectrum::{Rgb, Spectrum, Wavelengths},
+    texture::Texture,
+};
+use glam::Vec2;
+
+/// What travels from `wo`: radiance on camera paths, flux on light paths. Only refraction differs: radiance is
+/// compressed by (η of `wo`'s side / η of `wi`'s side)², flux is not (Veach 1997, section 5.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transport {
+    /// Camera path: `wi` points where the light comes from.
+    Radiance,
+    /// Light path: `wi` points where the light goes.
+    Flux,
+}
+
+/// A sampled direction.
+#[derive(Clone, Copy, Debug)]
+pub struct BsdfSample {
+    /// Sampled direction, away from the surface.
+    pub wi: Local,
+    /// `f(wo, wi)·|cos θi| / pdf`: multiply the throughput by this.
+    pub weight: Spectrum,
+    /// Density of `wi` (1/sr) over all lobes; for a delta lobe, the discrete probability of the lobe.
+    pub pdf: f32,
+    /// From a Dirac delta lobe: no density, so neither next-event estimation nor photons can meet it.
+    pub delta: bool,
+    /// η of `wi`'s side over η of `wo`'s side; 1 for a reflection. Russian roulette undoes the η² of radiance with it.
+    pub eta: f32,
+}
+
+/// The contract of every closure; checked for each model in `tests/bsdf_contract.rs`.
+pub trait Scatter {
+    /// `f(wo, wi)` in 1/sr, *without* the cosine. Zero for delta lobes.
+    fn eval(&self, wo: Local, wi: Local, mode: Transport) -> Spectrum;
+    /// Density (1/sr) with which [`Scatter::sample`] draws `wi` given `wo`. Zero for delta lobes.
+    fn pdf(&self, wo: Local, wi: Local) -> f32;
+    /// Draws `wi`; `None` when the sample carries nothing. `u_lobe` picks the lobe.
+    fn sample(&self, wo: Local, u_lobe: f32, u: Vec2, mode: Transport) -> Option<BsdfSample>;
+    /// True if some lobe has a density, so that photons may be stored and lights connected here.
+    fn is_connectible(&self) -> bool;
+}
+
+/// What a material may look at when it is resolved at a hit.
+#[derive(Clone, Copy)]
+pub struct Lookup<'s> {
+    /// All textures of the scene.
+    pub textures: &'s [Texture],
+    /// Texture coordinates of the hit.
+    pub uv: Vec2,
+    /// What the lanes mean in this pass.
+    pub lambda: Wavelengths,
+}
+
+impl Lookup<'_> {
+    /// The colour of texture `id` here.
+    #[inline]
+    pub fn rgb(&self, id: TextureId) -> Rgb {
+        self.textures[id.0 as usize].eval(self.uv)
+    }
+    /// The colour of texture `id` here, at the wavelengths of the pass.
+    #[inline]
+    pub fn spectrum(&self, id: TextureId) -> Spectrum {
+        Spectrum::from_rgb(self.rgb(id), self.lambda)
+    }
+}
+
+/// Handle of a texture of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct TextureId(pub u32);
+
+/// A material as the scene stores it.
+pub trait Model {
+    /// What it is at a hit.
+    type Closure: Scatter + Copy;
+    /// Word for lists and messages.
+    const NAME: &'static str;
+    /// One line for help and manual.
+    const ABOUT: &'static str;
+    /// Looks the textures up.
+    fn resolve(&self, at: &Lookup) -> Self::Closure;
+    /// The textures it refers to, so that the builder can check them.
+    fn textures(&self) -> Vec<TextureId>;
+}
+
+/// Name and purpose of a material model, for `sunfleck list materials` and the manual.
+#[derive(Clone, Copy, Debug)]
+pub struct MaterialEntry {
+    /// Word for lists and messages.
+    pub name: &'static str,
+    /// One line.
+    pub about: &'static str,
+}
+
+/// Declares the closed set of models: the enums [`Material`] and [`Bsdf`] and the list [`MATERIALS`].
+macro_rules! models {
+    ($($closure:ident / $material:ident),* $(,)?) => {
+        /// One of the material models of this room.
+        #[derive(Clone, Debug)]
+        pub enum Material { $(#[doc = concat!("See [`", stringify!($material), "`].")] $closure($material)),* }
+        /// One of the closures of this room.
+        #[derive(Clone, Copy, Debug)]
+        pub enum Bsdf { $(#[doc = concat!("See [`", stringify!($closure), "`].")] $closure($closure)),* }
+        /// Every material model.
+        pub const MATERIALS: &[MaterialEntry] =
+            &[$(MaterialEntry { name: <$material as Model>::NAME, about: <$material as Model>::ABOUT }),*];
+        $(impl From<$material> for Material { fn from(m: $material) -> Self { Self::$closure(m) } })*
+        $(impl From<$closure> for Bsdf { fn from(b: $closure) -> Self { Self::$closure(b) } })*
+        impl Material {
+            /// The closure at a hit.
+            #[inline]
+            pub fn resolve(&self, at: &Lookup) -> Bsdf {
+                match self { $(Self::$closure(m) => Bsdf::$closure(m.resolve(at))),* }
+            }
+            /// The model's word.
+            pub fn name(&self) -> &'static str {
+                match self { $(Self::$closure(_) => <$material as Model>::NAME),* }
+            }
+            /// The textures it refers to.
+            pub fn textures(&self) -> Vec<TextureId> {
+                match self { $(Self::$closure(m) => m.textures()),* }
+            }
+        }
+        impl Scatter for Bsdf {
+            #[inline]
+            fn eval(&self, wo: Local, wi: Local, mode: Transport) -> Spectrum {
+                match self { $(Self::$closure(b) => b.eval(wo, wi, mode)),* }
+            }
+            #[inline]
+            fn pdf(&self, wo: Local, wi: Local) -> f32 {
+                match self { $(Self::$closure(b) => b.pdf(wo, wi)),* }
+            }
+            #[inline]
+            fn sample(&self, wo: Local, u_lobe: f32, u: Vec2, mode: Transport) -> Option<BsdfSample> {
+                match self { $(Self::$closure(b) => b.sample(wo, u_lobe, u, mode)),* }
+            }
+            #[inline]
+            fn is_connectible(&self) -> bool {
+                match self { $(Self::$closure(b) => b.is_connectible()),* }
+            }
+        }
+    };
+}
+
+models![Diffuse / DiffuseMaterial];

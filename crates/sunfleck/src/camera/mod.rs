@@ -1,0 +1,63 @@
+//! The eye: from a place on the picture to a ray, and from a point of the scene back to the picture.
+//!
+//! Places on the picture are `raster` coordinates in [0, 1]²: x to the right, y **down**, row 0 on top. To add a model:
+//! write `camera/<name>.rs` implementing [`Project`] and one word in `cameras!`.
+mod perspective;
+
+pub use perspective::{Perspective, PerspectiveError, View};
+
+use crate::math::Ray;
+use glam::{Vec2, Vec3};
+
+/// A camera ray.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraRay {
+    /// Origin and unit direction.
+    pub ray: Ray,
+    /// Solid angle (sr) per unit of raster area at this place; divided by the number of pixels, one pixel's.
+    pub solid_angle: f32,
+}
+
+/// A point of the scene as the camera sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct CameraSample {
+    /// Point on the lens.
+    pub p: Vec3,
+    /// Unit direction from the point of the scene to `p`.
+    pub wi: Vec3,
+    /// Where on the picture's plane; may lie outside [0, 1]², where only a wide pixel filter reaches.
+    pub raster: Vec2,
+    /// `1 / (solid_angle · d²)`: a path of flux Φ that scatters `f·cos` toward the lens adds
+    /// `Φ·f·cos·importance` per unit of raster area.
+    pub importance: f32,
+}
+
+/// The contract of every camera; checked in `tests/camera_contract.rs`.
+pub trait Project {
+    /// The ray through `raster` and the lens point of `u_lens`.
+    fn ray(&self, raster: Vec2, u_lens: Vec2) -> CameraRay;
+    /// Connects `from` to the lens point of `u_lens`; `None` if `from` is behind the camera.
+    fn sample_wi(&self, from: Vec3, u_lens: Vec2) -> Option<CameraSample>;
+}
+
+/// Declares the closed set of cameras and forwards every [`Project`] method to them.
+macro_rules! cameras {
+    ($($name:ident),* $(,)?) => {
+        /// One of the models of this room.
+        #[derive(Clone, Debug)]
+        pub enum Camera { $(#[doc = concat!("See [`", stringify!($name), "`].")] $name($name)),* }
+        $(impl From<$name> for Camera { fn from(c: $name) -> Self { Self::$name(c) } })*
+        impl Project for Camera {
+            #[inline]
+            fn ray(&self, raster: Vec2, u_lens: Vec2) -> CameraRay {
+                match self { $(Self::$name(c) => c.ray(raster, u_lens)),* }
+            }
+            #[inline]
+            fn sample_wi(&self, from: Vec3, u_lens: Vec2) -> Option<CameraSample> {
+                match self { $(Self::$name(c) => c.sample_wi(from, u_lens)),* }
+            }
+        }
+    };
+}
+
+cameras![Perspective];

@@ -1,0 +1,118 @@
+//! What one pass writes.
+use super::FilmSpec;
+use crate::spectrum::Rgb;
+use glam::Vec2;
+use rayon::prelude::*;
+use std::ops::AddAssign;
+
+/// Work done, for rates and summaries.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Rays traced, shadow rays included.
+    pub rays: u64,
+    /// Light paths started.
+    pub emitted: u64,
+    /// Photons stored.
+    pub stored: u64,
+}
+
+impl AddAssign for Counts {
+    fn add_assign(&mut self, o: Self) {
+        self.rays += o.rays;
+        self.emitted += o.emitted;
+        self.stored += o.stored;
+    }
+}
+
+/// A contribution that lands anywhere on the picture.
+#[derive(Clone, Copy, Debug)]
+pub struct Splat {
+    /// Raster coordinates (see [`crate::camera`]).
+    pub raster: Vec2,
+    /// Radiance times raster area, i.e. what is added per unit of raster area.
+    pub value: Rgb,
+}
+
+/// One estimate of the whole picture, W/(m²·sr); buffers are reused from pass to pass.
+#[derive(Clone, Debug)]
+pub struct PassImage {
+    spec: FilmSpec,
+    pixels: Vec<Rgb>,
+    /// Work done.
+    pub counts: Counts,
+}
+
+impl PassImage {
+    /// A black picture.
+    pub fn new(spec: FilmSpec) -> Self {
+        Self { spec, pixels: vec![Rgb::ZERO; spec.pixels()], counts: Counts::default() }
+    }
+    /// Size and filter.
+    pub fn spec(&self) -> FilmSpec {
+        self.spec
+    }
+    /// Row-major pixels, top row first.
+    pub fn pixels(&self) -> &[Rgb] {
+        &self.pixels
+    }
+    /// Makes it black again.
+    pub fn clear(&mut self) {
+        self.pixels.fill(Rgb::ZERO);
+        self.counts = Counts::default();
+    }
+    /// Computes every pixel with `render(x, y)`, rows in parallel. A non-finite value counts as black: one broken path
+    /// must not spoil a pixel for good.
+    pub fn fill(&mut self, render: impl Fn(u32, u32, &mut Counts) -> Rgb + Sync) {
+        let width = self.spec.width as usize;
+        let row = |(y, row): (usize, &mut [Rgb])| {
+            let mut counts = Counts::default();
+            for (x, pixel) in row.iter_mut().enumerate() {
+                let value = render(x as u32, y as u32, &mut counts);
+                *pixel = if value.is_finite() { value } else { Rgb::ZERO };
+            }
+            counts
+        };
+        let rows: Vec<Counts> = self.pixels.par_chunks_mut(width).enumerate().map(row).collect();
+        rows.into_iter().for_each(|c| self.counts += c);
+    }
+    /// Adds contributions in the order given, which is what makes the sum independent of threads.
+    pub fn splat(&mut self, splats: &[Splat]) {
+        let (w, h) = (self.spec.width as i32, self.spec.height as i32);
+        let (offsets, weight) = self.spec.filter.holders();
+        let per_pixel = weight * self.spec.pixels() as f32;
+        for s in splats.iter().filter(|s| s.value.is_finite()) {
+            let p = (s.raster * Vec2::new(w as f32, h as f32)).floor();
+            for (dx, dy) in offsets {
+                let (x, y) = (p.x as i32 + dx, p.y as i32 + dy);
+                if (0..w).contains(&x) && (0..h).contains(&y) {
+                    self.pixels[(y * w + x) as usize] += s.value * per_pixel;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::film::Filter;
+
+    #[test]
+    fn a_splat_keeps_its_energy_and_falls_into_its_pixel() {
+        for filter in [Filter::Box, Filter::NRenderer] {
+            let mut image = PassImage::new(FilmSpec { width: 4, height: 2, filter });
+            image.splat(&[Splat { raster: Vec2::new(0.6, 0.8), value: Rgb::ONE }]);
+            let mean = image.pixels().iter().map(|p| p.x).sum::<f32>() / 8.0;
+            assert!((mean - 1.0).abs() < 1e-6, "{filter:?}");
+            assert!(image.pixels()[4 + 2].x > 0.0);
+        }
+    }
+
+    #[test]
+    fn broken_values_are_dropped() {
+        let mut image = PassImage::new(FilmSpec { width: 2, height: 1, filter: Filter::Box });
+        image.fill(|x, _, _| if x == 0 { Rgb::splat(f32::NAN) } else { Rgb::ONE });
+        image.splat(&[Splat { raster: Vec2::splat(0.1), value: Rgb::splat(f32::INFINITY) }]);
+        assert_eq!(image.pixels(), [Rgb::ZERO, Rgb::ONE]);
+    }
+}

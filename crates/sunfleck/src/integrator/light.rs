@@ -1,0 +1,126 @@
+//! Light tracing: paths from the lights, each vertex connected to the camera. Finds caustics on matt surfaces; cannot
+//! see anything in a mirror or through glass.
+use super::{Entry, Integrator, Pass, PassRenderer};
+use crate::{
+    bsdf::Transport,
+    camera::Project,
+    film::{Counts, FilmSpec, PassImage, Splat},
+    light::Emitter,
+    sampler::{Domain, Sampler},
+    scene::{Scene, World},
+    spectrum::Spectrum,
+    walk::{Arrival, Limits, Start, Step, Visit, walk},
+};
+use rayon::prelude::*;
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "light",
+    about: "light tracing: paths from the lights, connected to the camera; blind to mirrors and glass, good for checking",
+    params: &[],
+    mergeable: true,
+    make: |p| Ok(Box::new(LightTracer { limits: p.limits()? })),
+};
+
+/// Settings of the light tracer. A pass starts as many light paths as the picture has pixels.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LightTracer {
+    /// When paths end.
+    pub limits: Limits,
+}
+
+impl Integrator for LightTracer {
+    fn prepare<'s>(&'s self, scene: &'s Scene, _: FilmSpec, _: u64) -> Box<dyn PassRenderer + 's> {
+        Box::new(Prepared { scene, limits: self.limits })
+    }
+}
+
+struct Prepared<'s> {
+    scene: &'s Scene,
+    limits: Limits,
+}
+
+/// Light paths per task. Splats are joined in path order, so any value gives the same picture.
+const CHUNK: u64 = 4096;
+
+impl PassRenderer for Prepared<'_> {
+    fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
+        let world = self.scene.world(pass.lambda);
+        self.lights_seen_directly(&world, pass, image);
+        let paths = image.spec().pixels() as u64;
+        let chunks: Vec<(Vec<Splat>, Counts)> = (0..paths.div_ceil(CHUNK))
+            .into_par_iter()
+            .map(|c| {
+                let mut out =
+                    Connect { world: &world, limits: self.limits, splats: Vec::new(), counts: Counts::default() };
+                for index in c * CHUNK..((c + 1) * CHUNK).min(paths) {
+                    out.trace(Sampler::new(pass.seed, Domain::Light, pass.index, index), paths);
+                }
+                (out.splats, out.counts)
+            })
+            .collect();
+        for (splats, counts) in chunks {
+            image.splat(&splats);
+            image.counts += counts;
+        }
+    }
+}
+
+impl Prepared<'_> {
+    /// Paths without any scattering: found by camera rays, as a connection from a light would have no pixel to miss.
+    fn lights_seen_directly(&self, world: &World, pass: &Pass, image: &mut PassImage) {
+        let spec = image.spec();
+        image.fill(|x, y, counts| {
+            let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
+            let mut sampler = Sampler::new(pass.seed, Domain::Camera, pass.index, pixel);
+            let raster = spec.raster(x, y, sampler.next_2d());
+            let ray = self.scene.camera().ray(raster, sampler.next_2d()).ray;
+            counts.rays += 1;
+            let le = match world.intersect(&ray) {
+                Some(at) => world.emitted(&at),
+                None => world.escaped(ray.o, ray.d).fold(Spectrum::BLACK, |sum, (le, _)| sum + le),
+            };
+            le.to_rgb(pass.lambda)
+        });
+    }
+}
+
+/// Connects every vertex of a light walk to the camera.
+struct Connect<'w> {
+    world: &'w World<'w>,
+    limits: Limits,
+    splats: Vec<Splat>,
+    counts: Counts,
+}
+
+impl Connect<'_> {
+    fn trace(&mut self, mut sampler: Sampler, paths: u64) {
+        self.counts.emitted += 1;
+        let Some((id, prob, _)) = self.world.choose_light(sampler.next_1d()) else { return };
+        let (u_area, u_dir) = (sampler.next_2d(), sampler.next_2d());
+        let Some(le) = self.world.light(id).sample_le(u_area, u_dir, self.world.around()) else { return };
+        let beta = le.flux() / (prob * paths as f32);
+        let world = self.world;
+        let limits = self.limits;
+        self.counts.rays +=
+            walk(world, &Start { ray: le.ray, beta, mode: Transport::Flux }, &limits, &mut sampler, self);
+    }
+}
+
+impl Visit for Connect<'_> {
+    #[inline]
+    fn surface(&mut self, a: &Arrival, sampler: &mut Sampler) -> Step {
+        let u_lens = sampler.next_2d();
+        if a.scatterings >= self.limits.scatterings || !a.at.is_connectible() {
+            return Step::On;
+        }
+        let Some(c) = self.world.scene().camera().sample_wi(a.at.p, u_lens) else { return Step::On };
+        let value = a.beta * a.at.f_cos(c.wi, Transport::Flux) * c.importance;
+        if !value.is_black() {
+            self.counts.rays += 1;
+            if !self.world.occluded(&a.at.spawn_to(c.wi, c.p)) {
+                self.splats.push(Splat { raster: c.raster, value: value.to_rgb(self.world.lambda()) });
+            }
+        }
+        Step::On
+    }
+}

@@ -1,0 +1,73 @@
+//! Algorithms: from a scene to an estimate of its picture.
+//!
+//! To add one: write `integrator/<name>.rs` with its settings, an `ENTRY` and the two traits below, and add the entry to
+//! [`REGISTRY`]; command line, help and the agreement tests run over that list.
+mod light;
+mod params;
+mod path;
+mod raycast;
+
+pub use light::LightTracer;
+pub use params::{ParamError, ParamInfo, Params};
+pub use path::PathTracer;
+pub use raycast::RayCast;
+
+use crate::{film::PassImage, scene::Scene, spectrum::Wavelengths};
+
+/// All that differs between passes.
+#[derive(Clone, Copy, Debug)]
+pub struct Pass {
+    /// 0, 1, 2, …
+    pub index: u64,
+    /// The user's seed.
+    pub seed: u64,
+    /// What the lanes of a spectrum mean in this pass.
+    pub lambda: Wavelengths,
+}
+
+/// An algorithm with its settings.
+pub trait Integrator: Send + Sync {
+    /// Gets ready for `scene`; may measure or train, deterministically in (scene, spec, seed).
+    fn prepare<'s>(&'s self, scene: &'s Scene, spec: crate::film::FilmSpec, seed: u64) -> Box<dyn PassRenderer + 's>;
+}
+
+/// One estimate of the whole picture per pass.
+pub trait PassRenderer: Sync {
+    /// Adds an estimate to the black `image`: a pure function of what was prepared and of the pass. The mean over
+    /// passes is the picture.
+    fn render_pass(&self, pass: &Pass, image: &mut PassImage);
+}
+
+/// Name, purpose and maker of an algorithm.
+pub struct Entry {
+    /// Word on the command line.
+    pub name: &'static str,
+    /// One line for help and manual.
+    pub about: &'static str,
+    /// Settings it takes.
+    pub params: &'static [ParamInfo],
+    /// Whether films of separate sets of passes may be merged.
+    pub mergeable: bool,
+    /// Builds it from named settings.
+    pub make: fn(&mut Params) -> Result<Box<dyn Integrator>, ParamError>,
+}
+
+/// Every algorithm.
+pub const REGISTRY: &[Entry] = &[raycast::ENTRY, path::ENTRY, light::ENTRY];
+
+/// The entry called `name`.
+pub fn find(name: &str) -> Option<&'static Entry> {
+    REGISTRY.iter().find(|e| e.name == name)
+}
+
+impl Entry {
+    /// Builds the algorithm.
+    ///
+    /// # Errors
+    /// A setting it does not know, or a value out of range.
+    pub fn build(&self, mut params: Params) -> Result<Box<dyn Integrator>, ParamError> {
+        let made = (self.make)(&mut params)?;
+        params.finish(self)?;
+        Ok(made)
+    }
+}

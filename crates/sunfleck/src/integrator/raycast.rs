@@ -1,0 +1,78 @@
+//! NRenderer's Ray Cast: one ray through the corner of a pixel, the first point light, Phong's formula, no falloff.
+//! A picture for comparison, not an estimate of light.
+use super::{Entry, Integrator, Pass, PassRenderer};
+use crate::{
+    bsdf::{Diffuse, Transport},
+    camera::Project,
+    film::{FilmSpec, Filter, PassImage},
+    light::Light,
+    sampler::{Domain, Sampler},
+    scene::{Interaction, Scene, World},
+    spectrum::{Rgb, Spectrum},
+};
+use glam::{Vec2, Vec3};
+use std::f32::consts::PI;
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "raycast",
+    about: "NRenderer's Ray Cast: direct light of the first point light by Phong's formula, without falloff",
+    params: &[],
+    mergeable: true,
+    // The common settings are accepted, so that switching algorithms needs no other change of a command line.
+    make: |p| p.limits().map(|_| Box::new(RayCast) as Box<dyn Integrator>),
+};
+
+/// Ray casting has no settings.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct RayCast;
+
+impl Integrator for RayCast {
+    fn prepare<'s>(&'s self, scene: &'s Scene, _: FilmSpec, _: u64) -> Box<dyn PassRenderer + 's> {
+        let lamp =
+            scene.lights().iter().find_map(|l| if let Light::Point(p) = l { Some((p.p, p.intensity)) } else { None });
+        Box::new(Prepared { scene, lamp })
+    }
+}
+
+struct Prepared<'s> {
+    scene: &'s Scene,
+    /// Position and intensity; without a point light, a white lamp at the camera's eye shows the shapes.
+    lamp: Option<(Vec3, Rgb)>,
+}
+
+impl PassRenderer for Prepared<'_> {
+    fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
+        let world = self.scene.world(pass.lambda);
+        let spec = image.spec();
+        image.fill(|x, y, counts| {
+            // NRenderer looks through the pixel's lower left corner; a filtered picture looks anywhere in the pixel.
+            let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
+            let u = match spec.filter {
+                Filter::NRenderer => Vec2::splat(0.5),
+                Filter::Box => Sampler::new(pass.seed, Domain::Camera, pass.index, pixel).next_2d(),
+            };
+            let ray = self.scene.camera().ray(spec.raster(x, y, u), Vec2::splat(0.5)).ray;
+            counts.rays += 2;
+            let Some(at) = world.intersect(&ray) else { return Rgb::ZERO };
+            self.shade(&world, &at, ray.o).to_rgb(pass.lambda)
+        });
+    }
+}
+
+impl Prepared<'_> {
+    /// `(kd·N·L + ks·|V·R|ⁿ)·I`, which is π·f·cos·I for the material models made for it; shadowed, no 1/r².
+    fn shade(&self, world: &World, at: &Interaction, eye: Vec3) -> Spectrum {
+        let (lamp, intensity) = self.lamp.unwrap_or((eye, Rgb::ONE));
+        let Some(wi) = (lamp - at.p).try_normalize() else { return Spectrum::BLACK };
+        let f_cos = if at.is_connectible() {
+            at.f_cos(wi, Transport::Radiance)
+        } else {
+            // Mirrors and glass are shaded as white paper.
+            Interaction { bsdf: Diffuse { reflectance: Spectrum::ONE }.into(), ..*at }.f_cos(wi, Transport::Radiance)
+        };
+        if f_cos.is_black() || world.occluded(&at.spawn_to(wi, lamp)) {
+            return Spectrum::BLACK;
+        }
+        f_cos * Spectrum::from_rgb(intensity, world.lambda()) * PI
+    }
+}

@@ -1,0 +1,129 @@
+//! A surface that emits the same radiance in all directions of one side, or of both.
+use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
+use crate::{
+    math::{Frame, warp::square_to_cosine_hemisphere},
+    shape::{AreaSample, Shape},
+    spectrum::{Rgb, Spectrum, Wavelengths},
+};
+use glam::{Vec2, Vec3};
+use std::f32::consts::{FRAC_1_PI, PI};
+
+/// Which sides of a surface emit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Sides {
+    /// The outer side only.
+    #[default]
+    One,
+    /// Both, each with the full radiance, as in NRenderer.
+    Two,
+}
+
+/// A diffuse emitter.
+#[derive(Clone, Debug)]
+pub struct AreaLight {
+    /// The emitting surface, in world space.
+    pub shape: Shape,
+    /// Emitted radiance, W/(m²·sr).
+    pub radiance: Rgb,
+    /// Sides that emit.
+    pub sides: Sides,
+}
+
+impl AreaLight {
+    /// Cosine at the emitter toward `d` if that side emits, else 0.
+    #[inline]
+    fn emission_cos(&self, ng: Vec3, d: Vec3) -> f32 {
+        let cos = ng.dot(d);
+        if self.sides == Sides::Two { cos.abs() } else { cos.max(0.0) }
+    }
+    /// Draws a point as seen from `from`: by solid angle where the shape can, else by area.
+    #[inline]
+    fn sample_point(&self, from: Vec3, u: Vec2) -> Option<(AreaSample, f32)> {
+        if let Shape::Sphere(s) = &self.shape
+            && let Some(seen) = s.sample_visible(from, u)
+        {
+            return Some(seen);
+        }
+        let q = self.shape.sample_area(u);
+        let to = q.p - from;
+        let d2 = to.length_squared();
+        let cos = q.ng.dot(to).abs() / d2.sqrt();
+        let pdf = d2 / (cos * self.shape.area());
+        (pdf.is_finite() && cos > 0.0).then_some((q, pdf))
+    }
+}
+
+impl Emitter for AreaLight {
+    fn name(&self) -> &'static str {
+        "area"
+    }
+    /// π·A·L for one side, twice that for two.
+    fn power(&self, _: &Surroundings) -> Rgb {
+        let sides = if self.sides == Sides::Two { 2.0 } else { 1.0 };
+        self.radiance * (sides * PI * self.shape.area())
+    }
+    #[inline]
+    fn sample_li(&self, from: Vec3, u: Vec2, around: &Surroundings) -> Option<LiSample> {
+        let (q, pdf) = self.sample_point(from, u)?;
+        let wi = (q.p - from).try_normalize()?;
+        (self.emission_cos(q.ng, -wi) > 0.0).then(|| LiSample {
+            wi,
+            li: Spectrum::from_rgb(self.radiance, around.lambda),
+            pdf,
+            delta: false,
+            end: LightEnd::Surface(q),
+        })
+    }
+    #[inline]
+    fn pdf_li(&self, from: Vec3, wi: Vec3, hit: Option<&EmitterHit>) -> f32 {
+        let Some(hit) = hit else { return 0.0 };
+        if self.emission_cos(hit.ng, -wi) <= 0.0 {
+            return 0.0;
+        }
+        if let Shape::Sphere(s) = &self.shape
+            && let Some(pdf) = s.visible_pdf(from)
+        {
+            return pdf;
+        }
+        hit.p.distance_squared(from) / (hit.ng.dot(wi).abs() * self.shape.area())
+    }
+    #[inline]
+    fn sample_le(&self, u_area: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample> {
+        let q = self.shape.sample_area(u_area);
+        // Two sides share the first direction coordinate.
+        let (side, u_dir, prob) = match self.sides {
+            Sides::One => (1.0, u_dir, 1.0),
+            Sides::Two if u_dir.x < 0.5 => (1.0, Vec2::new(2.0 * u_dir.x, u_dir.y), 0.5),
+            Sides::Two => (-1.0, Vec2::new(2.0 * u_dir.x - 1.0, u_dir.y), 0.5),
+        };
+        let w = square_to_cosine_hemisphere(u_dir);
+        let d = Frame::from_normal(side * q.ng).to_world(w);
+        let cos = w.cos_theta();
+        Some(LeSample {
+            ray: q.emit(d),
+            le: Spectrum::from_rgb(self.radiance, around.lambda),
+            pdf_area: 1.0 / self.shape.area(),
+            pdf_dir: prob * cos * FRAC_1_PI,
+            cos,
+        })
+    }
+    #[inline]
+    fn pdf_le(&self, hit: Option<&EmitterHit>, d: Vec3, _: &Surroundings) -> (f32, f32) {
+        let Some(hit) = hit else { return (0.0, 0.0) };
+        let prob = if self.sides == Sides::Two { 0.5 } else { 1.0 };
+        (1.0 / self.shape.area(), prob * self.emission_cos(hit.ng, d) * FRAC_1_PI)
+    }
+    #[inline]
+    fn le(&self, hit: &EmitterHit, wo: Vec3, lambda: Wavelengths) -> Spectrum {
+        if self.emission_cos(hit.ng, wo) > 0.0 { Spectrum::from_rgb(self.radiance, lambda) } else { Spectrum::BLACK }
+    }
+    fn le_escaped(&self, _: Vec3, _: Wavelengths) -> Spectrum {
+        Spectrum::BLACK
+    }
+    fn is_infinite(&self) -> bool {
+        false
+    }
+    fn is_delta(&self) -> bool {
+        false
+    }
+}

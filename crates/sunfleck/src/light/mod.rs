@@ -1,0 +1,177 @@
+//! Where light comes from: chosen from a point ([`Emitter::sample_li`]), emitted into the scene
+//! ([`Emitter::sample_le`]), or met by a ray ([`Emitter::le`], [`Emitter::le_escaped`]).
+//!
+//! To add one: write `light/<name>.rs` implementing [`Emitter`] and add one word to `lights!` below; the contract tests
+//! run over the whole list.
+mod area;
+mod point;
+mod table;
+
+pub use area::{AreaLight, Sides};
+pub use point::PointLight;
+pub use table::LightTable;
+
+use crate::{
+    math::{Ray, offset_origin},
+    shape::AreaSample,
+    spectrum::{Rgb, Spectrum, Wavelengths},
+};
+use glam::{Vec2, Vec3};
+
+/// Handle of a light of the scene.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct LightId(pub u32);
+
+/// What a light may know of the world it shines into.
+#[derive(Clone, Copy, Debug)]
+pub struct Surroundings {
+    /// Centre of a sphere that holds the whole scene.
+    pub centre: Vec3,
+    /// Its radius, > 0.
+    pub radius: f32,
+    /// What the lanes mean in this pass.
+    pub lambda: Wavelengths,
+}
+
+/// Where a connection to a light ends; what a shadow ray needs to know.
+#[derive(Clone, Copy, Debug)]
+pub enum LightEnd {
+    /// On an emitting surface.
+    Surface(AreaSample),
+    /// At a point without extent.
+    Point(Vec3),
+    /// Outside the scene, in the direction `wi`.
+    Infinite,
+}
+
+/// A direction from which a light reaches a point.
+#[derive(Clone, Copy, Debug)]
+pub struct LiSample {
+    /// Unit direction from the point to the light.
+    pub wi: Vec3,
+    /// Radiance arriving along it, were nothing in between; for a delta light, irradiance perpendicular to `wi`.
+    pub li: Spectrum,
+    /// Density of `wi` (1/sr); 1 for a delta light.
+    pub pdf: f32,
+    /// The light cannot be hit by a ray: no other technique finds this contribution.
+    pub delta: bool,
+    /// The far end.
+    pub end: LightEnd,
+}
+
+/// A ray leaving a light.
+#[derive(Clone, Copy, Debug)]
+pub struct LeSample {
+    /// Origin and unit direction; already off the emitting surface.
+    pub ray: Ray,
+    /// Emitted radiance; intensity (W/sr) of a light without extent, irradiance of one without solid angle.
+    pub le: Spectrum,
+    /// Density of the origin (1/m²); 1 for a light without extent.
+    pub pdf_area: f32,
+    /// Density of the direction (1/sr); 1 for a light without solid angle.
+    pub pdf_dir: f32,
+    /// |cos| at the emitting surface; 1 where there is none.
+    pub cos: f32,
+}
+
+impl LeSample {
+    /// The flux (W) that this ray stands for: `Le |cos θ| / (pdf_area · pdf_dir)`.
+    #[inline]
+    pub fn flux(&self) -> Spectrum {
+        self.le * (self.cos / (self.pdf_area * self.pdf_dir))
+    }
+}
+
+/// A point of an emitting surface, met by a ray.
+#[derive(Clone, Copy, Debug)]
+pub struct EmitterHit {
+    /// Position.
+    pub p: Vec3,
+    /// Geometric normal, unit, on the outer side.
+    pub ng: Vec3,
+}
+
+/// The contract of every light; checked for each in `tests/light_contract.rs`.
+pub trait Emitter {
+    /// Word for messages and summaries.
+    fn name(&self) -> &'static str;
+    /// Total emitted flux (W); for lights outside the scene, what enters the disk of the scene's radius.
+    fn power(&self, around: &Surroundings) -> Rgb;
+    /// Draws a direction in which the light is seen from `from`; `None` if it sends nothing there.
+    fn sample_li(&self, from: Vec3, u: Vec2, around: &Surroundings) -> Option<LiSample>;
+    /// Density (1/sr) with which [`Emitter::sample_li`] draws the direction `wi` toward `hit` (`None`: toward infinity).
+    fn pdf_li(&self, from: Vec3, wi: Vec3, hit: Option<&EmitterHit>) -> f32;
+    /// Draws an emitted ray.
+    fn sample_le(&self, u_area: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample>;
+    /// Densities `(pdf_area, pdf_dir)` with which [`Emitter::sample_le`] emits from `hit` in direction `d`; zero where
+    /// it never would, and for delta lights.
+    fn pdf_le(&self, hit: Option<&EmitterHit>, d: Vec3, around: &Surroundings) -> (f32, f32);
+    /// Radiance leaving the emitting surface at `hit` in direction `wo`. Black for lights without a surface.
+    fn le(&self, hit: &EmitterHit, wo: Vec3, lambda: Wavelengths) -> Spectrum;
+    /// Radiance seen by a ray that leaves the scene in direction `d`. Black for lights inside the scene.
+    fn le_escaped(&self, d: Vec3, lambda: Wavelengths) -> Spectrum;
+    /// Whether rays that leave the scene see this light.
+    fn is_infinite(&self) -> bool;
+    /// Whether no ray can hit it.
+    fn is_delta(&self) -> bool;
+}
+
+/// Declares the closed set of lights and forwards every [`Emitter`] method to them.
+macro_rules! lights {
+    ($($variant:ident($light:ident)),* $(,)?) => {
+        /// One of the models of this room.
+        #[derive(Clone, Debug)]
+        pub enum Light { $(#[doc = concat!("See [`", stringify!($light), "`].")] $variant($light)),* }
+        $(impl From<$light> for Light { fn from(l: $light) -> Self { Self::$variant(l) } })*
+        impl Emitter for Light {
+            fn name(&self) -> &'static str {
+                match self { $(Self::$variant(l) => l.name()),* }
+            }
+            fn power(&self, around: &Surroundings) -> Rgb {
+                match self { $(Self::$variant(l) => l.power(around)),* }
+            }
+            #[inline]
+            fn sample_li(&self, from: Vec3, u: Vec2, around: &Surroundings) -> Option<LiSample> {
+                match self { $(Self::$variant(l) => l.sample_li(from, u, around)),* }
+            }
+            #[inline]
+            fn pdf_li(&self, from: Vec3, wi: Vec3, hit: Option<&EmitterHit>) -> f32 {
+                match self { $(Self::$variant(l) => l.pdf_li(from, wi, hit)),* }
+            }
+            #[inline]
+            fn sample_le(&self, u_area: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample> {
+                match self { $(Self::$variant(l) => l.sample_le(u_area, u_dir, around)),* }
+            }
+            #[inline]
+            fn pdf_le(&self, hit: Option<&EmitterHit>, d: Vec3, around: &Surroundings) -> (f32, f32) {
+                match self { $(Self::$variant(l) => l.pdf_le(hit, d, around)),* }
+            }
+            #[inline]
+            fn le(&self, hit: &EmitterHit, wo: Vec3, lambda: Wavelengths) -> Spectrum {
+                match self { $(Self::$variant(l) => l.le(hit, wo, lambda)),* }
+            }
+            #[inline]
+            fn le_escaped(&self, d: Vec3, lambda: Wavelengths) -> Spectrum {
+                match self { $(Self::$variant(l) => l.le_escaped(d, lambda)),* }
+            }
+            #[inline]
+            fn is_infinite(&self) -> bool {
+                match self { $(Self::$variant(l) => l.is_infinite()),* }
+            }
+            #[inline]
+            fn is_delta(&self) -> bool {
+                match self { $(Self::$variant(l) => l.is_delta()),* }
+            }
+        }
+    };
+}
+
+lights![Area(AreaLight), Point(PointLight)];
+
+impl AreaSample {
+    /// A ray from this point in direction `d`, starting off the surface.
+    #[inline]
+    pub(crate) fn emit(&self, d: Vec3) -> Ray {
+        Ray { o: offset_origin(self.p, self.p_error, self.ng, d), d, tmin: 0.0, tmax: f32::INFINITY }
+    }
+}

@@ -1,0 +1,13 @@
+//! Vectors, frames, rays and warps. What direction, from where, with which density?
+//!
+//! Everything above (shapes, lights, scattering) is written in these terms; nothing here knows of light.
+mod discrete;
+mod frame;
+mod offset;
+pub mod warp;
+
+pub use accel::Ray;
+pub use discrete::{Discrete, Discrete2d};
+pub use frame::{Frame, Local};
+pub use glam::{Affine3A, Vec2, Vec3};
+pub use offset::offset_origin;

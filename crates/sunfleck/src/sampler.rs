@@ -1,0 +1,208 @@
+//! The only source of randomness: numbers that are a function of (seed, domain, pass, index).
+//!
+//! The first dimensions are pairs of an Owen-scrambled (0,2)-sequence, each pair with its own shuffle of the index, so
+//! that pairs are well spread by themselves and independent of each other (Burley 2020, "Practical Hash-based Owen
+//! Scrambling"). After [`STRATIFIED`] draws, where stratification no longer helps, they are hashed counters.
+
+/// Which family of paths draws numbers; keeps their streams apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Domain {
+    /// Camera paths; `index` is the pixel, stratified over passes.
+    Camera,
+    /// Light paths; `index` is the path, stratified over the paths of a pass.
+    Light,
+    /// Training and measurement before the first pass; stratified as light paths are.
+    Prepare,
+}
+
+/// Draws (1-D or 2-D) that come from the scrambled sequence.
+const STRATIFIED: u32 = 24;
+
+/// One stream of uniform numbers in [0, 1).
+#[derive(Clone, Copy, Debug)]
+pub struct Sampler {
+    /// Position in the low-discrepancy sequence.
+    point: u32,
+    /// Scrambling key of this stream.
+    key: u32,
+    /// Draws made so far.
+    draw: u32,
+    /// State of the counter-based generator for late draws.
+    late: u64,
+}
+
+impl Sampler {
+    /// The stream of path `index` in pass `pass`.
+    ///
+    /// Camera paths of one pixel share a scramble and walk the sequence from pass to pass; light paths of one pass share
+    /// a scramble and walk it from path to path.
+    pub fn new(seed: u64, domain: Domain, pass: u64, index: u64) -> Self {
+        let family = mix64(seed ^ mix64(domain as u64 + 1));
+        let (stream, point) = if domain == Domain::Camera { (index, pass) } else { (pass, index) };
+        let key = mix64(family.wrapping_add(mix64(stream ^ 0x9e37_79b9_7f4a_7c15)));
+        let late = mix64(key ^ mix64(point.wrapping_add(0x632b_e59b_d9b4_e019)));
+        Self { point: point as u32, key: (key >> 32) as u32 ^ ((point >> 32) as u32), draw: 0, late }
+    }
+
+    /// One number in [0, 1).
+    #[inline]
+    pub fn next_1d(&mut self) -> f32 {
+        let (index, k) = match self.next_draw() {
+            Some(v) => v,
+            None => return unit(self.next_late()),
+        };
+        unit(owen(index.reverse_bits(), k ^ 0x68bc_21eb))
+    }
+
+    /// Two numbers in [0, 1), stratified together.
+    #[inline]
+    pub fn next_2d(&mut self) -> glam::Vec2 {
+        let (index, k) = match self.next_draw() {
+            Some(v) => v,
+            None => return glam::Vec2::new(unit(self.next_late()), unit(self.next_late())),
+        };
+        let x = owen(index.reverse_bits(), k ^ 0x68bc_21eb);
+        let y = owen(sobol_second(index), k ^ 0x02e5_be93);
+        glam::Vec2::new(unit(x), unit(y))
+    }
+
+    /// The shuffled index and the key of the next stratified draw; `None` past the last one.
+    #[inline]
+    fn next_draw(&mut self) -> Option<(u32, u32)> {
+        let draw = self.draw;
+        self.draw += 1;
+        (draw < STRATIFIED).then(|| {
+            let k = mix32(self.key.wrapping_add(draw.wrapping_mul(0x9e37_79b9)));
+            // Owen scrambling of the index maps aligned power-of-two blocks onto such blocks, and each of those is a net.
+            (owen(self.point, k), mix32(k ^ 0x5bd1_e995))
+        })
+    }
+
+    /// A fresh 32-bit word: SplitMix64 (Steele, Lea & Flood 2014) keyed by the stream.
+    #[inline]
+    fn next_late(&mut self) -> u32 {
+        self.late = self.late.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        (mix64(self.late) >> 32) as u32
+    }
+}
+
+/// 24 random bits as a float in [0, 1).
+#[inline]
+fn unit(x: u32) -> f32 {
+    (x >> 8) as f32 * (1.0 / 16_777_216.0)
+}
+
+/// Nested uniform scramble of the bits of `x`, most significant first: the hash of Laine & Karras 2011 with the constants of
+/// Vegdahl 2021, "Building a Better LK Hash".
+#[inline]
+fn owen(x: u32, seed: u32) -> u32 {
+    let mut v = x.reverse_bits();
+    v ^= v.wrapping_mul(0x3d20_adea);
+    v = v.wrapping_add(seed);
+    v = v.wrapping_mul((seed >> 16) | 1);
+    v ^= v.wrapping_mul(0x0552_6c56);
+    v ^= v.wrapping_mul(0x53a2_2864);
+    v.reverse_bits()
+}
+
+/// Second dimension of the Sobol' sequence as a 32-bit fraction: its generator matrix is Pascal's triangle modulo 2,
+/// which factors into five shifts.
+#[inline]
+fn sobol_second(index: u32) -> u32 {
+    let mut v = index;
+    v ^= (v >> 16) & 0x0000_ffff;
+    v ^= (v >> 8) & 0x00ff_00ff;
+    v ^= (v >> 4) & 0x0f0f_0f0f;
+    v ^= (v >> 2) & 0x3333_3333;
+    v ^= (v >> 1) & 0x5555_5555;
+    v.reverse_bits()
+}
+
+/// Bijective 32-bit finaliser (constants of Wellons 2018, "prospecting for hash functions", lowbias32).
+#[inline]
+fn mix32(mut x: u32) -> u32 {
+    x ^= x >> 16;
+    x = x.wrapping_mul(0x7feb_352d);
+    x ^= x >> 15;
+    x = x.wrapping_mul(0x846c_a68b);
+    x ^ (x >> 16)
+}
+
+/// Bijective 64-bit finaliser of `SplitMix64`.
+#[inline]
+fn mix64(mut x: u64) -> u64 {
+    x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn pairs_fill_every_elementary_interval_once() {
+        for draw in 0..5 {
+            for log_x in 0..=6u32 {
+                let mut seen = [0u8; 64];
+                for path in 0..64 {
+                    let mut s = Sampler::new(7, Domain::Light, 3, path);
+                    (0..draw).for_each(|_| _ = s.next_1d());
+                    let u = s.next_2d();
+                    let (nx, ny) = (1u32 << log_x, 64u32 >> log_x);
+                    let cell = (u.x * nx as f32) as u32 * ny + (u.y * ny as f32) as u32;
+                    seen[cell as usize] += 1;
+                }
+                assert!(seen.iter().all(|&c| c == 1), "draw {draw}, 2^{log_x} columns: {seen:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn draws_and_streams_are_uncorrelated() {
+        let n = 4096;
+        let corr = |a: &[f32], b: &[f32]| {
+            let s: f64 = a.iter().zip(b).map(|(x, y)| f64::from((x - 0.5) * (y - 0.5))).sum();
+            (s / n as f64 * 12.0).abs()
+        };
+        let column = |pass: u64, draw: usize| -> Vec<f32> {
+            (0..n)
+                .map(|i| {
+                    let mut s = Sampler::new(1, Domain::Light, pass, i);
+                    (0..draw).for_each(|_| _ = s.next_1d());
+                    s.next_1d()
+                })
+                .collect()
+        };
+        let late = STRATIFIED as usize + 3;
+        for (a, b) in [
+            ((0, 0), (0, 1)),
+            ((0, 0), (0, 5)),
+            ((0, 0), (1, 0)),
+            ((0, 1), (0, late)),
+            ((0, late), (0, late + 1)),
+            ((0, late), (1, late)),
+        ] {
+            let c = corr(&column(a.0, a.1), &column(b.0, b.1));
+            assert!(c < 5.0 / (n as f64).sqrt(), "{a:?} {b:?}: {c}");
+        }
+    }
+
+    #[test]
+    fn a_stream_is_a_pure_function_of_its_address() {
+        let draw = |seed, d, p, i| {
+            let mut s = Sampler::new(seed, d, p, i);
+            (0..40).map(|_| s.next_1d()).collect::<Vec<_>>()
+        };
+        let a = draw(1, Domain::Camera, 2, 3);
+        assert_eq!(a, draw(1, Domain::Camera, 2, 3));
+        for other in [
+            draw(2, Domain::Camera, 2, 3),
+            draw(1, Domain::Light, 2, 3),
+            draw(1, Domain::Camera, 3, 3),
+            draw(1, Domain::Camera, 2, 4),
+        ] {
+            assert!(a.iter().zip(&other).filter(|(x, y)| x == y).count() < 3);
+        }
+    }
+}

@@ -1,0 +1,148 @@
+//! A point where a path meets a surface, and everything that can be asked there.
+use crate::{
+    bsdf::{Bsdf, Scatter, Transport},
+    light::{EmitterHit, LightEnd, LightId},
+    math::{Frame, Local, Ray, offset_origin},
+    shape::SurfacePoint,
+    spectrum::Spectrum,
+};
+use glam::{Vec2, Vec3};
+
+/// A ray–surface hit in world space, with its scattering resolved.
+#[derive(Clone, Copy, Debug)]
+pub struct Interaction {
+    /// Position.
+    pub p: Vec3,
+    /// Bound on each coordinate's absolute error.
+    pub p_error: Vec3,
+    /// Geometric normal, unit, on the outer side.
+    pub ng: Vec3,
+    /// Shading frame.
+    pub frame: Frame,
+    /// Unit direction back to where the path came from.
+    pub wo: Vec3,
+    /// Distance along the ray that came here.
+    pub distance: f32,
+    /// Texture coordinates.
+    pub uv: Vec2,
+    /// Scattering here.
+    pub bsdf: Bsdf,
+    /// The light on this surface.
+    pub light: Option<LightId>,
+}
+
+/// A direction to go on in, in world space.
+#[derive(Clone, Copy, Debug)]
+pub struct Scattered {
+    /// Sampled direction, away from the surface.
+    pub wi: Vec3,
+    /// What the throughput is multiplied by.
+    pub weight: Spectrum,
+    /// Density (1/sr), or the lobe's discrete probability if `delta`.
+    pub pdf: f32,
+    /// From a delta lobe.
+    pub delta: bool,
+    /// η of the new side over η of the old one.
+    pub eta: f32,
+}
+
+impl Interaction {
+    pub(super) fn new(s: &SurfacePoint, wo: Vec3, distance: f32, bsdf: Bsdf, light: Option<LightId>) -> Self {
+        let frame = Frame::from_normal(s.n);
+        Self { p: s.p, p_error: s.p_error, ng: s.ng, frame, wo, distance, uv: s.uv, bsdf, light }
+    }
+    /// The emitting surface that was met.
+    #[inline]
+    pub fn emitter_hit(&self) -> EmitterHit {
+        EmitterHit { p: self.p, ng: self.ng }
+    }
+    /// Whether photons may be stored and lights connected here.
+    #[inline]
+    pub fn is_connectible(&self) -> bool {
+        self.bsdf.is_connectible()
+    }
+
+    /// The scattering function in 1/sr without any cosine; zero where the shading and the geometric normal disagree
+    /// about the side of a direction (light would leak through the surface).
+    #[inline]
+    pub fn f(&self, wi: Vec3, mode: Transport) -> Spectrum {
+        let (lo, li) = (self.frame.to_local(self.wo), self.frame.to_local(wi));
+        if self.sides_agree(self.wo, lo) && self.sides_agree(wi, li) {
+            self.bsdf.eval(lo, li, mode)
+        } else {
+            Spectrum::BLACK
+        }
+    }
+    /// What a path that goes on toward `wi` is multiplied by, per unit of solid angle: `f` with its cosine, and for
+    /// flux the adjoint factor of shading normals (Veach 1997, eq. 5.19).
+    #[inline]
+    pub fn f_cos(&self, wi: Vec3, mode: Transport) -> Spectrum {
+        self.f(wi, mode) * self.cos_factor(wi, mode)
+    }
+    /// Radiance toward `wo` per unit of flux density of photons that came from `wi`: photons are counted per area of
+    /// the true surface, while scattering weighs them by the shading cosine.
+    #[inline]
+    pub fn f_photon(&self, wi: Vec3) -> Spectrum {
+        let cos_g = self.ng.dot(wi).abs();
+        if cos_g <= 0.0 {
+            return Spectrum::BLACK;
+        }
+        self.f(wi, Transport::Radiance) * (self.frame.n.dot(wi).abs() / cos_g)
+    }
+    /// Density (1/sr) with which [`Interaction::sample`] draws `wi`.
+    #[inline]
+    pub fn pdf(&self, wi: Vec3) -> f32 {
+        self.bsdf.pdf(self.frame.to_local(self.wo), self.frame.to_local(wi))
+    }
+    /// Draws a direction to go on in. `None` when nothing is carried on.
+    #[inline]
+    pub fn sample(&self, u_lobe: f32, u: Vec2, mode: Transport) -> Option<Scattered> {
+        let lo = self.frame.to_local(self.wo);
+        let s = self.bsdf.sample(lo, u_lobe, u, mode)?;
+        let wi = self.frame.to_world(s.wi);
+        if !(self.sides_agree(self.wo, lo) && self.sides_agree(wi, s.wi)) || s.weight.is_black() {
+            return None;
+        }
+        let adjoint = match mode {
+            Transport::Radiance => 1.0,
+            Transport::Flux => self.cos_factor(wi, mode) / s.wi.abs_cos_theta(),
+        };
+        let weight = s.weight * adjoint;
+        weight.is_finite().then_some(Scattered { wi, weight, pdf: s.pdf, delta: s.delta, eta: s.eta })
+    }
+    #[inline]
+    fn cos_factor(&self, wi: Vec3, mode: Transport) -> f32 {
+        let n = self.frame.n;
+        match mode {
+            Transport::Radiance => n.dot(wi).abs(),
+            Transport::Flux => n.dot(self.wo).abs() * self.ng.dot(wi).abs() / self.ng.dot(self.wo).abs(),
+        }
+    }
+    /// Whether `w` lies on the same side for both normals.
+    #[inline]
+    fn sides_agree(&self, w: Vec3, local: Local) -> bool {
+        self.ng.dot(w) * local.cos_theta() > 0.0
+    }
+
+    /// A ray from here in direction `d` that does not meet this surface again.
+    #[inline]
+    pub fn spawn(&self, d: Vec3) -> Ray {
+        Ray { o: offset_origin(self.p, self.p_error, self.ng, d), d, tmin: 0.0, tmax: f32::INFINITY }
+    }
+    /// A shadow ray toward the far end of a connection in direction `wi`, which ends short of it.
+    #[inline]
+    pub fn spawn_toward(&self, wi: Vec3, end: &LightEnd) -> Ray {
+        match end {
+            LightEnd::Infinite => self.spawn(wi),
+            LightEnd::Point(p) => self.spawn_to(wi, *p),
+            LightEnd::Surface(q) => self.spawn_to(wi, offset_origin(q.p, q.p_error, q.ng, -wi)),
+        }
+    }
+    /// A shadow ray toward the point `to` in direction `wi`, which ends short of it.
+    #[inline]
+    pub fn spawn_to(&self, wi: Vec3, to: Vec3) -> Ray {
+        let o = offset_origin(self.p, self.p_error, self.ng, wi);
+        // The far end is exact to a few ulps; a ten-thousandth of the way keeps clear of it.
+        Ray { o, d: to - o, tmin: 0.0, tmax: 0.9999 }
+    }
+}

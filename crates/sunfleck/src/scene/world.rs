@@ -1,0 +1,128 @@
+//! The scene as one pass sees it: at one set of wavelengths.
+use super::{Interaction, Scene, Surface};
+use crate::{
+    bsdf::Lookup,
+    light::{Emitter, LiSample, Light, LightId, Surroundings},
+    math::Ray,
+    shape::SurfacePoint,
+    spectrum::{Spectrum, Wavelengths},
+};
+use glam::{Vec2, Vec3};
+
+/// What algorithms ask: rays, lights, materials.
+#[derive(Clone, Copy)]
+pub struct World<'s> {
+    scene: &'s Scene,
+    around: Surroundings,
+}
+
+/// A light drawn for next-event estimation, with all probabilities multiplied in.
+#[derive(Clone, Copy, Debug)]
+pub struct DirectSample {
+    /// The connection; its `pdf` includes the choice of the light.
+    pub li: LiSample,
+    /// Which light.
+    pub light: LightId,
+}
+
+impl<'s> World<'s> {
+    pub(super) fn new(scene: &'s Scene, lambda: Wavelengths) -> Self {
+        Self { scene, around: scene.surroundings(lambda) }
+    }
+    /// The scene behind it.
+    pub fn scene(&self) -> &'s Scene {
+        self.scene
+    }
+    /// What the lanes mean.
+    pub fn lambda(&self) -> Wavelengths {
+        self.around.lambda
+    }
+    /// What lights may know of the scene.
+    pub fn around(&self) -> &Surroundings {
+        &self.around
+    }
+
+    /// The first surface along `ray` (unit direction), materials resolved.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<Interaction> {
+        let hit = self.scene.bvh.closest(ray)?;
+        let (surface, point) = self.locate(&hit, ray);
+        let at = Lookup { textures: &self.scene.textures, uv: point.uv, lambda: self.around.lambda };
+        let bsdf = self.scene.materials[surface.material.0 as usize].resolve(&at);
+        Some(Interaction::new(&point, -ray.d, hit.t, bsdf, surface.light))
+    }
+    /// The surface that was hit and the point on it, in world space.
+    #[inline]
+    fn locate(&self, hit: &accel::Hit, ray: &Ray) -> (&'s Surface, SurfacePoint) {
+        let at = ray.o + hit.t * ray.d;
+        if hit.instance == accel::Hit::NO_INSTANCE {
+            let surface = &self.scene.surfaces[hit.geometry as usize];
+            return (surface, surface.shape.surface_point(hit, at));
+        }
+        let placed = &self.scene.placements[hit.instance as usize];
+        let surface = &self.scene.objects[placed.object.0 as usize][hit.geometry as usize];
+        let local = surface.shape.surface_point(hit, placed.object_from_world.transform_point3(at));
+        (surface, placed.to_world(&local))
+    }
+    /// Whether something lies within the reach of `ray`.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.scene.bvh.occluded(ray)
+    }
+
+    /// The light with handle `id`.
+    #[inline]
+    pub fn light(&self, id: LightId) -> &'s Light {
+        &self.scene.lights[id.0 as usize]
+    }
+    /// Probability with which light `id` is chosen, for connections and for emission.
+    #[inline]
+    pub fn light_prob(&self, id: LightId) -> f32 {
+        self.scene.light_table.prob(id)
+    }
+    /// Chooses a light in proportion to power: `(id, probability, fresh uniform number)`. `None` if there is none.
+    #[inline]
+    pub fn choose_light(&self, u: f32) -> Option<(LightId, f32, f32)> {
+        self.scene.light_table.sample(u)
+    }
+    /// Draws a light and a direction toward it as seen from `from`; unshadowed.
+    #[inline]
+    pub fn sample_direct(&self, from: Vec3, u_light: f32, u: Vec2) -> Option<DirectSample> {
+        let (light, prob, _) = self.choose_light(u_light)?;
+        let mut li = self.light(light).sample_li(from, u, &self.around)?;
+        li.pdf *= prob;
+        Some(DirectSample { li, light })
+    }
+    /// Radiance leaving `at` toward where the path came from, if that surface emits.
+    #[inline]
+    pub fn emitted(&self, at: &Interaction) -> Spectrum {
+        at.light.map_or(Spectrum::BLACK, |id| self.light(id).le(&at.emitter_hit(), at.wo, self.around.lambda))
+    }
+    /// Density (1/sr, choice of the light included) with which [`World::sample_direct`] at `from` finds the emitter `at`
+    /// in direction `wi`.
+    #[inline]
+    pub fn pdf_direct(&self, from: Vec3, wi: Vec3, at: &Interaction) -> f32 {
+        at.light.map_or(0.0, |id| self.light(id).pdf_li(from, wi, Some(&at.emitter_hit())) * self.light_prob(id))
+    }
+    /// Radiance of what a ray in direction `d` sees outside the scene, light by light, with the density (1/sr, choice
+    /// included) with which [`World::sample_direct`] finds it.
+    #[inline]
+    pub fn escaped(&self, from: Vec3, d: Vec3) -> impl Iterator<Item = (Spectrum, f32)> + '_ {
+        self.scene.light_table.infinite().iter().map(move |&id| {
+            let light = self.light(id);
+            (light.le_escaped(d, self.around.lambda), light.pdf_li(from, d, None) * self.light_prob(id))
+        })
+    }
+}
+
+impl super::Placement {
+    fn to_world(&self, s: &SurfacePoint) -> SurfacePoint {
+        let m = &self.world_from_object;
+        // Error of the moved point: the old error moved, plus the roundings of the transform itself.
+        let abs = glam::Mat3A::from_cols(m.matrix3.x_axis.abs(), m.matrix3.y_axis.abs(), m.matrix3.z_axis.abs());
+        let rounding = crate::shape::gamma(4.0) * (abs * s.p.abs() + Vec3::from(m.translation).abs());
+        let ng = (self.normal_from_object * s.ng).normalize_or(Vec3::Z);
+        let n = (self.normal_from_object * s.n).normalize_or(ng);
+        SurfacePoint { p: m.transform_point3(s.p), p_error: 1.01 * (abs * s.p_error) + rounding, ng, n, uv: s.uv }
+    }
+}

@@ -1,0 +1,153 @@
+//! Indexed triangles with optional vertex normals and texture coordinates.
+use super::{AreaSample, SurfacePoint, gamma};
+use crate::math::{Discrete, warp::square_to_triangle};
+use accel::Hit;
+use glam::{Affine3A, Vec2, Vec3};
+
+/// Triangles over shared vertices; the outer side is where vertices turn counter-clockwise.
+#[derive(Clone, Debug, Default)]
+pub struct Mesh {
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+    indices: Vec<[u32; 3]>,
+    /// Triangle areas, for drawing points.
+    areas: Discrete,
+}
+
+/// Why vertices and indices do not make a mesh.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum MeshError {
+    /// An index points past the vertices.
+    #[error("triangle {triangle} refers to vertex {index}, but there are {vertices}")]
+    Index {
+        /// Which triangle.
+        triangle: usize,
+        /// Its index.
+        index: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// Normals or texture coordinates do not match the vertices.
+    #[error("there are {found} {what} for {vertices} vertices")]
+    Attribute {
+        /// Which attribute.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// Number of vertices.
+        vertices: usize,
+    },
+}
+
+impl Mesh {
+    /// Checks and takes vertex arrays; `normals` and `uvs` are empty or as long as `positions`.
+    ///
+    /// # Errors
+    /// An index out of range, or an attribute array of another length.
+    pub fn new(
+        positions: Vec<Vec3>,
+        normals: Vec<Vec3>,
+        uvs: Vec<Vec2>,
+        indices: Vec<[u32; 3]>,
+    ) -> Result<Self, MeshError> {
+        let vertices = positions.len();
+        for (what, found) in [("normals", normals.len()), ("texture coordinates", uvs.len())] {
+            if found != 0 && found != vertices {
+                return Err(MeshError::Attribute { what, found, vertices });
+            }
+        }
+        for (triangle, t) in indices.iter().enumerate() {
+            if let Some(&index) = t.iter().find(|&&i| i as usize >= vertices) {
+                return Err(MeshError::Index { triangle, index, vertices });
+            }
+        }
+        let areas = Discrete::new(indices.iter().map(|t| {
+            let [a, b, c] = t.map(|i| positions[i as usize]);
+            0.5 * (b - a).cross(c - a).length()
+        }));
+        Ok(Self { positions, normals, uvs, indices, areas })
+    }
+    /// Vertex positions.
+    pub fn positions(&self) -> &[Vec3] {
+        &self.positions
+    }
+    /// Vertex indices of each triangle.
+    pub fn indices(&self) -> &[[u32; 3]] {
+        &self.indices
+    }
+    fn corners<T: Copy>(&self, values: &[T], triangle: u32) -> [T; 3] {
+        self.indices[triangle as usize].map(|i| values[i as usize])
+    }
+    fn point(&self, triangle: u32, u: f32, v: f32) -> (Vec3, Vec3, Vec3) {
+        let [a, b, c] = self.corners(&self.positions, triangle);
+        let (pa, pb, pc) = ((1.0 - u - v) * a, u * b, v * c);
+        // Barycentrics are themselves rounded; a moved barycentric moves the point within the plane only.
+        let p_error = gamma(7.0) * (pa.abs() + pb.abs() + pc.abs());
+        (pa + pb + pc, p_error, (b - a).cross(c - a).normalize_or(Vec3::Z))
+    }
+    #[inline]
+    pub(super) fn surface_point(&self, hit: &Hit) -> SurfacePoint {
+        let (u, v) = (hit.u, hit.v);
+        let (p, p_error, ng) = self.point(hit.primitive, u, v);
+        let n = if self.normals.is_empty() {
+            ng
+        } else {
+            let [a, b, c] = self.corners(&self.normals, hit.primitive);
+            let n = ((1.0 - u - v) * a + u * b + v * c).normalize_or(ng);
+            // Files disagree about which side vertex normals take; the winding decides.
+            if n.dot(ng) < 0.0 { -n } else { n }
+        };
+        let uv = if self.uvs.is_empty() {
+            Vec2::new(u, v)
+        } else {
+            let [a, b, c] = self.corners(&self.uvs, hit.primitive);
+            (1.0 - u - v) * a + u * b + v * c
+        };
+        SurfacePoint { p, p_error, ng, n, uv }
+    }
+    pub(super) fn area(&self) -> f32 {
+        self.areas.total() as f32
+    }
+    pub(super) fn sample_area(&self, s: Vec2) -> AreaSample {
+        let (triangle, _, rest) = self.areas.sample(s.x).unwrap_or((0, 1.0, s.x));
+        let b = square_to_triangle(Vec2::new(rest, s.y));
+        let (p, p_error, ng) = self.point(triangle as u32, b.x, b.y);
+        AreaSample { p, p_error, ng }
+    }
+    pub(super) fn transformed(&self, m: &Affine3A) -> Self {
+        let normal_matrix = m.matrix3.inverse().transpose();
+        let mirrored = m.matrix3.determinant() < 0.0;
+        let positions: Vec<Vec3> = self.positions.iter().map(|&p| m.transform_point3(p)).collect();
+        let normals = self.normals.iter().map(|&n| (normal_matrix * n).normalize_or(Vec3::Z)).collect();
+        let indices = self.indices.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect();
+        Self::new(positions, normals, self.uvs.clone(), indices).expect("a valid mesh stays valid when moved")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bad_indices_and_attributes_are_named() {
+        let p = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+        assert_eq!(
+            Mesh::new(p.clone(), vec![], vec![], vec![[0, 1, 3]]).unwrap_err(),
+            MeshError::Index { triangle: 0, index: 3, vertices: 3 }
+        );
+        assert_eq!(
+            Mesh::new(p, vec![Vec3::Z], vec![], vec![]).unwrap_err(),
+            MeshError::Attribute { what: "normals", found: 1, vertices: 3 }
+        );
+    }
+
+    #[test]
+    fn area_points_are_spread_by_triangle_area() {
+        let p = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::new(0.0, -3.0, 0.0)];
+        let m = Mesh::new(p, vec![], vec![], vec![[0, 1, 2], [0, 3, 1]]).unwrap();
+        assert!((m.area() - 2.0).abs() < 1e-6);
+        let below = (0..1024).filter(|i| m.sample_area(Vec2::new((*i as f32 + 0.5) / 1024.0, 0.37)).p.y < 0.0).count();
+        assert_eq!(below, 768);
+    }
+}

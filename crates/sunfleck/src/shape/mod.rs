@@ -1,0 +1,96 @@
+//! Geometry: where a surface is, how it is oriented, and points drawn from it.
+//!
+//! Intersection itself is the work of the crate `accel`, which knows triangles and spheres; a shape tells it what it is
+//! made of and turns a hit into a point with normals. To add one: write `shape/<name>.rs` and one variant of [`Shape`].
+mod mesh;
+mod parallelogram;
+mod sphere;
+
+pub use mesh::{Mesh, MeshError};
+pub use parallelogram::Parallelogram;
+pub use sphere::Sphere;
+
+use accel::Hit;
+use glam::{Affine3A, Vec2, Vec3};
+
+/// One of the shapes of this room.
+#[derive(Clone, Debug)]
+pub enum Shape {
+    /// Indexed triangles.
+    Mesh(Mesh),
+    /// A full sphere.
+    Sphere(Sphere),
+    /// A flat four-sided patch.
+    Parallelogram(Parallelogram),
+}
+
+/// A point on a surface, before materials.
+#[derive(Clone, Copy, Debug)]
+pub struct SurfacePoint {
+    /// Position.
+    pub p: Vec3,
+    /// Bound on each coordinate's absolute error.
+    pub p_error: Vec3,
+    /// Geometric normal, unit, on the outer side.
+    pub ng: Vec3,
+    /// Shading normal, unit, in the hemisphere of `ng`.
+    pub n: Vec3,
+    /// Texture coordinates.
+    pub uv: Vec2,
+}
+
+/// A point drawn from a surface's area.
+#[derive(Clone, Copy, Debug)]
+pub struct AreaSample {
+    /// Position.
+    pub p: Vec3,
+    /// Bound on each coordinate's absolute error.
+    pub p_error: Vec3,
+    /// Geometric normal, unit, on the outer side.
+    pub ng: Vec3,
+}
+
+/// `n * EPSILON / (1 - n * EPSILON)`: relative error bound of `n` roundings (Higham 2002, lemma 3.1).
+#[inline]
+pub(crate) fn gamma(n: f32) -> f32 {
+    let e = n * f32::EPSILON * 0.5;
+    e / (1.0 - e)
+}
+
+impl Shape {
+    /// The point that `hit` describes, in the shape's own space; `o + t d` is the hit for shapes that need it.
+    #[inline]
+    pub fn surface_point(&self, hit: &Hit, at: Vec3) -> SurfacePoint {
+        match self {
+            Self::Mesh(m) => m.surface_point(hit),
+            Self::Sphere(s) => s.surface_point(at),
+            Self::Parallelogram(q) => q.surface_point(hit),
+        }
+    }
+    /// Surface area (m²).
+    pub fn area(&self) -> f32 {
+        match self {
+            Self::Mesh(m) => m.area(),
+            Self::Sphere(s) => s.area(),
+            Self::Parallelogram(q) => q.area(),
+        }
+    }
+    /// A point uniform in area: density 1/area.
+    #[inline]
+    pub fn sample_area(&self, u: Vec2) -> AreaSample {
+        match self {
+            Self::Mesh(m) => m.sample_area(u),
+            Self::Sphere(s) => s.sample_area(u),
+            Self::Parallelogram(q) => q.sample_area(u),
+        }
+    }
+    /// The same shape moved by `world_from_local`. `None` where the shape cannot follow (a sphere under shear or
+    /// uneven scaling).
+    pub fn transformed(&self, world_from_local: &Affine3A) -> Option<Self> {
+        match self {
+            Self::Mesh(m) => Some(Self::Mesh(m.transformed(world_from_local))),
+            Self::Sphere(s) => s.transformed(world_from_local).map(Self::Sphere),
+            Self::Parallelogram(q) => Some(Self::Parallelogram(q.transformed(world_from_local))),
+        }
+    }
+}

@@ -1,0 +1,134 @@
+//! The random walk: from the camera and from the lights, there is exactly one.
+//!
+//! It traces, scatters and plays Russian roulette; what to do at the places it visits is the [`Visit`]or's business.
+use crate::{
+    bsdf::Transport,
+    math::Ray,
+    sampler::Sampler,
+    scene::{Interaction, World},
+    spectrum::Spectrum,
+};
+
+/// When a walk ends by itself.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// Scatterings at most, over the whole path from light to camera: 0 sees only the lights, 1 is direct light.
+    pub scatterings: u32,
+    /// Scatterings before Russian roulette may end a camera walk. Light walks play from the first.
+    pub roulette_after: u32,
+}
+
+impl Default for Limits {
+    /// 64 scatterings, roulette after the third: bright, clear glass needs more than a handful.
+    fn default() -> Self {
+        Self { scatterings: 64, roulette_after: 3 }
+    }
+}
+
+/// A walker reaching a surface, about to scatter.
+#[derive(Clone, Copy, Debug)]
+pub struct Arrival<'a> {
+    /// Where.
+    pub at: &'a Interaction,
+    /// Throughput (camera walk) or flux (light walk) that arrives.
+    pub beta: Spectrum,
+    /// Scatterings so far.
+    pub scatterings: u32,
+    /// Density (1/sr) of the direction that led here; meaningless if `delta`.
+    pub pdf: f32,
+    /// The direction that led here came from a delta lobe (or, for the first segment, from what started the walk).
+    pub delta: bool,
+    /// Every scattering so far was from a delta lobe.
+    pub all_delta: bool,
+    /// Distance travelled so far.
+    pub travelled: f32,
+}
+
+/// A ray leaving the scene.
+#[derive(Clone, Copy, Debug)]
+pub struct Escape<'a> {
+    /// The ray.
+    pub ray: &'a Ray,
+    /// Throughput or flux that leaves.
+    pub beta: Spectrum,
+    /// Scatterings so far.
+    pub scatterings: u32,
+    /// Density (1/sr) of its direction; meaningless if `delta`.
+    pub pdf: f32,
+    /// Its direction came from a delta lobe (or from what started the walk).
+    pub delta: bool,
+}
+
+/// Whether a walk goes on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Scatter.
+    On,
+    /// End here.
+    Stop,
+}
+
+/// What happens at the places a walk visits.
+pub trait Visit {
+    /// A surface was reached. Draws from `sampler` come before those for scattering.
+    fn surface(&mut self, arrival: &Arrival, sampler: &mut Sampler) -> Step;
+    /// The walk left the scene, and ends.
+    fn escape(&mut self, _: &Escape) {}
+}
+
+/// The first ray of a walk.
+#[derive(Clone, Copy, Debug)]
+pub struct Start {
+    /// Origin and unit direction.
+    pub ray: Ray,
+    /// Throughput or flux it carries.
+    pub beta: Spectrum,
+    /// What `beta` is.
+    pub mode: Transport,
+}
+
+/// Walks from `start` until it escapes, is absorbed, the visitor stops it, or the limit is reached.
+///
+/// Russian roulette: light walks survive with `min(1, β_new / β_old)`, so that photons keep like power; camera walks,
+/// after [`Limits::roulette_after`] scatterings, with `min(1, β·η²)`, where η² undoes the compression of radiance inside
+/// glass (without it, walks would die or multiply there). Both are unbiased: survivors are divided by the probability.
+///
+/// Returns the number of rays traced.
+pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler, visitor: &mut impl Visit) -> u64 {
+    let Start { mut ray, mut beta, mode } = *start;
+    let (mut pdf, mut delta, mut all_delta) = (1.0, true, true);
+    let (mut eta_scale, mut travelled) = (1.0f32, 0.0);
+    let mut scatterings = 0;
+    loop {
+        let Some(at) = world.intersect(&ray) else {
+            visitor.escape(&Escape { ray: &ray, beta, scatterings, pdf, delta });
+            break;
+        };
+        travelled += at.distance;
+        let arrival = Arrival { at: &at, beta, scatterings, pdf, delta, all_delta, travelled };
+        if visitor.surface(&arrival, sampler) == Step::Stop || scatterings >= limits.scatterings {
+            break;
+        }
+        let Some(s) = at.sample(sampler.next_1d(), sampler.next_2d(), mode) else { break };
+        let next = beta * s.weight;
+        eta_scale *= s.eta * s.eta;
+        let survive = match mode {
+            Transport::Flux => next.max() / beta.max(),
+            Transport::Radiance if scatterings >= limits.roulette_after => next.max() * eta_scale,
+            Transport::Radiance => 1.0,
+        };
+        if survive < 1.0 {
+            if sampler.next_1d() >= survive {
+                break;
+            }
+            beta = next / survive;
+        } else {
+            beta = next;
+        }
+        (pdf, delta) = (s.pdf, s.delta);
+        all_delta &= s.delta;
+        ray = at.spawn(s.wi);
+        scatterings += 1;
+    }
+    u64::from(scatterings) + 1
+}
