@@ -2,4 +2,6 @@
 #![forbid(unsafe_code)]
 
 pub mod diagnostic;
+mod lines;
+pub mod obj;
 pub mod scn;

@@ -52,9 +52,8 @@ fn label_of(place: &Place) -> Option<&str> {
 }
 
 fn list(names: &[String]) -> String {
-    let mut text = names[..names.len().min(MAX_NAMES)].join(", ");
-    if names.len() > MAX_NAMES {
-        text += &format!(", … ({} in all)", names.len());
+    if names.len() <= MAX_NAMES {
+        return names.join(", ");
     }
-    text
+    format!("{}, … ({} in all)", names[..MAX_NAMES].join(", "), names.len())
 }

@@ -44,7 +44,10 @@ impl Sink {
         self.errors.is_empty()
     }
 
-    /// `value` if no error was recorded, else the errors with the warnings.
+    /// `value` if no error was recorded.
+    ///
+    /// # Errors
+    /// All errors recorded, with the warnings.
     pub fn finish<T>(&mut self, value: T) -> Result<T, Error> {
         if self.is_ok() {
             return Ok(value);

@@ -1,6 +1,6 @@
 //! The bytes of an input file, and from a span of bytes to a place for people.
 
-use super::{Diagnostic, Excerpt, Place, Position, Span, nearest};
+use super::{Diagnostic, Error, Excerpt, Place, Position, Span, nearest};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
@@ -30,14 +30,15 @@ impl SourceFile {
     ///
     /// # Errors
     /// Missing (with near names of that folder), a folder, unreadable, larger than [`MAX_FILE_BYTES`], or UTF-16.
-    pub fn read(path: &Path) -> Result<Self, Diagnostic> {
+    pub fn read(path: &Path) -> Result<Self, Error> {
         let source = Self { name: path.display().to_string(), bytes: read_bytes(path)? };
         match utf16_flavour(&source.bytes) {
             None => Ok(source),
             Some(flavour) => Err(Diagnostic::error("file::utf16", format!("the file is {flavour} text"))
                 .in_file(source.name)
                 .expected("ASCII or UTF-8 text")
-                .help("save it again as UTF-8 (in a shell: iconv -f UTF-16 -t UTF-8)")),
+                .help("save it again as UTF-8 (in a shell: iconv -f UTF-16 -t UTF-8)")
+                .into()),
         }
     }
 
@@ -129,21 +130,24 @@ fn utf16_flavour(bytes: &[u8]) -> Option<&'static str> {
 }
 
 /// Reads a whole file of at most [`MAX_FILE_BYTES`].
-pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Diagnostic> {
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, Error> {
     let name = path.display().to_string();
-    let cannot = |error: &std::io::Error| match error.kind() {
-        std::io::ErrorKind::NotFound => missing(path),
-        _ => Diagnostic::error("file::unreadable", format!("cannot read the file: {error}")).in_file(&name),
+    let cannot = |error: &std::io::Error| -> Error {
+        match error.kind() {
+            std::io::ErrorKind::NotFound => missing(path).into(),
+            _ => Diagnostic::error("file::unreadable", format!("cannot read the file: {error}")).in_file(&name).into(),
+        }
     };
     let meta = std::fs::metadata(path).map_err(|e| cannot(&e))?;
     if meta.is_dir() {
-        return Err(Diagnostic::error("file::folder", "this is a folder, not a file").in_file(name));
+        return Err(Diagnostic::error("file::folder", "this is a folder, not a file").in_file(name).into());
     }
     if meta.len() > MAX_FILE_BYTES {
         let size = meta.len() as f64 / MAX_FILE_BYTES as f64;
         return Err(Diagnostic::error("file::too-large", format!("the file has {size:.1} GiB"))
             .in_file(name)
-            .expected("at most 1 GiB"));
+            .expected("at most 1 GiB")
+            .into());
     }
     let mut bytes = Vec::with_capacity(meta.len() as usize);
     let file = File::open(path).map_err(|e| cannot(&e))?;

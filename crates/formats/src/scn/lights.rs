@@ -1,9 +1,9 @@
 //! `Begin Light`: lights, in world space.
 
-use super::lines::Line;
 use super::parser::Parser;
 use super::{LightKind, ScnLight, Spanned};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::lines::Line;
 use glam::Vec3;
 use std::f32::consts::{FRAC_PI_3, FRAC_PI_4};
 

@@ -1,10 +1,10 @@
 //! `Begin Material`: names, type numbers and properties.
 
-use super::lines::Line;
-use super::numbers::shortened;
 use super::parser::Parser;
 use super::{PropValue, ScnMaterial, ScnProp};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::lines::Line;
+use crate::lines::shortened;
 
 const KEYWORDS: [&str; 2] = ["Material", "Prop"];
 

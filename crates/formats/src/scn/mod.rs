@@ -5,7 +5,6 @@
 //! NRenderer's own reader is silent about most mistakes and crashes on some; here each is a message with its place.
 
 mod lights;
-mod lines;
 mod materials;
 mod models;
 mod numbers;

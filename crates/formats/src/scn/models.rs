@@ -1,10 +1,10 @@
 //! `Begin Model`: models and their shapes.
 
-use super::lines::Line;
-use super::numbers::shortened;
 use super::parser::Parser;
 use super::{Plane, ScnModel, ScnShape, ShapeKind, Spanned, Sphere, Triangle};
 use crate::diagnostic::{Diagnostic, Span};
+use crate::lines::Line;
+use crate::lines::shortened;
 use glam::Vec3;
 
 const KEYWORDS: [&str; 14] =
@@ -60,7 +60,9 @@ impl Parser<'_> {
         if self.tree.models.is_empty() {
             self.no_model(word);
         }
-        let material = if let Some(&index) = self.material_of.get(&material.value) { index } else {
+        let material = if let Some(&index) = self.material_of.get(&material.value) {
+            index
+        } else {
             self.unknown_material(&material);
             // The shape is kept, so that its attribute lines are read.
             usize::MAX

@@ -1,9 +1,9 @@
 //! Numbers of an `.scn` line, with NRenderer's comma in both readings.
 
 use super::Comma;
-use super::lines::Line;
 use super::parser::Parser;
 use crate::diagnostic::{Diagnostic, Span};
+use crate::lines::{Line, finite, shortened};
 use glam::Vec3;
 
 impl Parser<'_> {
@@ -65,23 +65,8 @@ impl Parser<'_> {
         );
     }
 
-    /// A finite single-precision number, or an error.
     fn float(&mut self, span: Span) -> Option<f32> {
-        let text = self.source.text(span);
-        let wrong = match text.parse::<f32>() {
-            Ok(x) if x.is_finite() => return Some(x),
-            Ok(_) if text.bytes().any(|b| b.is_ascii_digit()) => "too large for single precision",
-            Ok(_) => "not a finite number",
-            Err(_) => "not a number",
-        };
-        let mut error = Diagnostic::error("scn::bad-number", format!("`{}` is {wrong}", shortened(&text)))
-            .at(self.source, span, "")
-            .expected("a finite number such as 0.5, -3 or 1e-4");
-        if text.strip_suffix(['f', 'F']).is_some_and(|t| t.parse::<f32>().is_ok()) {
-            error = error.help("leave out the letter behind the number");
-        }
-        self.sink.error(error);
-        None
+        finite(self.source, span, "scn::bad-number").map_err(|error| self.sink.error(*error)).ok()
     }
 
     /// A whole number, or an error.
@@ -98,13 +83,5 @@ impl Parser<'_> {
         let message = format!("`{}` is not a whole number", shortened(&text));
         self.sink.error(Diagnostic::error("scn::bad-number", message).at(self.source, span, "").expected(range));
         None
-    }
-}
-
-/// Messages do not repeat kilobytes of input.
-pub(super) fn shortened(text: &str) -> String {
-    match text.char_indices().nth(60) {
-        Some((end, _)) => format!("{}…", &text[..end]),
-        None => text.to_owned(),
     }
 }

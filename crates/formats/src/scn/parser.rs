@@ -1,9 +1,9 @@
 //! The frame of an `.scn` file: sections, and what all of them share.
 
-use super::lines::{Line, Lines};
-use super::numbers::shortened;
 use super::{Comma, ScnFile};
 use crate::diagnostic::{Diagnostic, Sink, SourceFile, Span};
+use crate::lines::shortened;
+use crate::lines::{Line, Lines};
 use std::collections::HashMap;
 
 /// A file may define at most this many materials, properties, models, shapes and lights together.
