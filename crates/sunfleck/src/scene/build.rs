@@ -188,9 +188,8 @@ fn freeze(s: SurfaceDef, lights: &mut Vec<Light>) -> Surface {
 }
 
 fn placement(object: ObjectId, world_from_object: Affine3A) -> Placement {
-    let m = world_from_object.matrix3;
-    // Inverse transpose, with the sign of the determinant so that the outer side stays outside under mirroring.
-    let normal_from_object: Mat3A = m.inverse().transpose() * m.determinant().signum();
+    // The inverse transpose keeps the outer side outside under mirroring too: n·(x − p) > 0 maps to itself.
+    let normal_from_object: Mat3A = world_from_object.matrix3.inverse().transpose();
     Placement { object, world_from_object, object_from_world: world_from_object.inverse(), normal_from_object }
 }
 

@@ -7,7 +7,7 @@ use crate::{
     shape::SurfacePoint,
     spectrum::{Spectrum, Wavelengths},
 };
-use glam::{Vec2, Vec3};
+use glam::{Mat3A, Vec2, Vec3};
 
 /// What algorithms ask: rays, lights, materials.
 #[derive(Clone, Copy)]
@@ -118,11 +118,16 @@ impl<'s> World<'s> {
 impl super::Placement {
     fn to_world(&self, s: &SurfacePoint) -> SurfacePoint {
         let m = &self.world_from_object;
-        // Error of the moved point: the old error moved, plus the roundings of the transform itself.
-        let abs = glam::Mat3A::from_cols(m.matrix3.x_axis.abs(), m.matrix3.y_axis.abs(), m.matrix3.z_axis.abs());
-        let rounding = crate::shape::gamma(4.0) * (abs * s.p.abs() + Vec3::from(m.translation).abs());
+        let abs = |m: &Mat3A| Mat3A::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
+        let (forth, back) = (abs(&m.matrix3), abs(&self.object_from_world.matrix3));
+        // Error of the moved point: the old error moved, plus the roundings of the transform itself, and of the inverse
+        // transform that rays leaving this point go through.
+        let p = m.transform_point3(s.p);
+        let there = forth * s.p.abs() + Vec3::from(m.translation).abs();
+        let back_again = forth * (back * p.abs() + Vec3::from(self.object_from_world.translation).abs());
+        let rounding = crate::shape::gamma(4.0) * (there + back_again);
         let ng = (self.normal_from_object * s.ng).normalize_or(Vec3::Z);
         let n = (self.normal_from_object * s.n).normalize_or(ng);
-        SurfacePoint { p: m.transform_point3(s.p), p_error: 1.01 * (abs * s.p_error) + rounding, ng, n, uv: s.uv }
+        SurfacePoint { p, p_error: 1.01 * (forth * s.p_error) + rounding, ng, n, uv: s.uv }
     }
 }
