@@ -64,6 +64,8 @@ pub struct Escape<'a> {
 pub enum Step {
     /// Scatter.
     On,
+    /// Scatter, but go on only if the scattering turns out to be from a delta lobe; the others were dealt with here.
+    OnIfDelta,
     /// End here.
     Stop,
 }
@@ -106,10 +108,14 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         };
         travelled += at.distance;
         let arrival = Arrival { at: &at, beta, scatterings, pdf, delta, all_delta, travelled };
-        if visitor.surface(&arrival, sampler) == Step::Stop || scatterings >= limits.scatterings {
+        let step = visitor.surface(&arrival, sampler);
+        if step == Step::Stop || scatterings >= limits.scatterings {
             break;
         }
         let Some(s) = at.sample(sampler.next_1d(), sampler.next_2d(), mode) else { break };
+        if step == Step::OnIfDelta && !s.delta {
+            break;
+        }
         let next = beta * s.weight;
         eta_scale *= s.eta * s.eta;
         let survive = match mode {

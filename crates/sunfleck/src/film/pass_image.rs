@@ -63,11 +63,20 @@ impl PassImage {
     /// Computes every pixel with `render(x, y)`, rows in parallel. A non-finite value counts as black: one broken path
     /// must not spoil a pixel for good.
     pub fn fill(&mut self, render: impl Fn(u32, u32, &mut Counts) -> Rgb + Sync) {
+        self.fill_with(|| (), |(), x, y, counts| render(x, y, counts));
+    }
+    /// As [`PassImage::fill`], with a scratch space made anew for each row. What is left in it may change how fast a
+    /// pixel is computed, never its value.
+    pub fn fill_with<S>(
+        &mut self,
+        scratch: impl Fn() -> S + Sync,
+        render: impl Fn(&mut S, u32, u32, &mut Counts) -> Rgb + Sync,
+    ) {
         let width = self.spec.width as usize;
         let row = |(y, row): (usize, &mut [Rgb])| {
-            let mut counts = Counts::default();
+            let (mut counts, mut scratch) = (Counts::default(), scratch());
             for (x, pixel) in row.iter_mut().enumerate() {
-                let value = render(x as u32, y as u32, &mut counts);
+                let value = render(&mut scratch, x as u32, y as u32, &mut counts);
                 *pixel = if value.is_finite() { value } else { Rgb::ZERO };
             }
             counts
