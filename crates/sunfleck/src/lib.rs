@@ -2,7 +2,8 @@
 //!
 //! The rooms, ground floor first: [`math`], [`spectrum`], [`sampler`]; then [`texture`], [`bsdf`], [`shape`], [`light`] and
 //! [`camera`], one model a file; [`scene`] holds them in flat tables; [`walk`] is the one random
-//! walk; [`integrator`] turns walks into pictures, pass by pass; [`film`] adds passes up; [`render`] runs them.
+//! walk; [`photon`] is what light walks leave behind; [`integrator`] turns walks into pictures, pass by pass; [`film`]
+//! adds passes up; [`render`] runs them.
 #![forbid(unsafe_code)]
 
 pub mod bsdf;
@@ -11,6 +12,7 @@ pub mod film;
 pub mod integrator;
 pub mod light;
 pub mod math;
+pub mod photon;
 pub mod render;
 pub mod sampler;
 pub mod scene;

@@ -5,11 +5,13 @@
 mod light;
 mod params;
 mod path;
+mod ppm;
 mod raycast;
 
 pub use light::LightTracer;
 pub use params::{ParamError, ParamInfo, Params};
 pub use path::PathTracer;
+pub use ppm::{Direct, Ppm};
 pub use raycast::RayCast;
 
 use crate::{film::PassImage, scene::Scene, spectrum::Wavelengths};
@@ -53,7 +55,7 @@ pub struct Entry {
 }
 
 /// Every algorithm.
-pub const REGISTRY: &[Entry] = &[raycast::ENTRY, path::ENTRY, light::ENTRY];
+pub const REGISTRY: &[Entry] = &[raycast::ENTRY, path::ENTRY, light::ENTRY, ppm::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

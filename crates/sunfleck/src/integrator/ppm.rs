@@ -1,0 +1,197 @@
+//! Progressive photon mapping: every pass shoots its own photons and gathers them where a camera path first scatters by
+//! a lobe with a density; the radius shrinks from pass to pass, so that the mean over passes has neither noise nor bias
+//! in the end (Hachisuka, Ogaki & Jensen 2008, in the memoryless form of Knaus & Zwicker 2011).
+//!
+//! Paths by Heckbert's letters (D stands for any lobe with a density), each found once:
+//!
+//! | path | found by |
+//! |---|---|
+//! | `L S* E` | the camera walk hitting the light |
+//! | `L D S* E` | a light connection (`direct=connect`), or photons (`direct=photons`) |
+//! | `L S⁺ D S* E`, `L S* D (S\|D)* D S* E` | photons |
+use super::{Entry, Integrator, ParamInfo, Pass, PassRenderer, path::direct};
+use crate::{
+    bsdf::Transport,
+    camera::Project,
+    film::{Counts, FilmSpec, PassImage},
+    photon::{Disc, Keep, Kernel, RadiusMap, Reach, Schedule, Shower, gather_within, pixel_angle, survey},
+    sampler::{Domain, Sampler},
+    scene::{Scene, World},
+    spectrum::Spectrum,
+    walk::{Arrival, Escape, Limits, Start, Step, Visit, walk},
+};
+
+/// First radius in pixel widths.
+const PIXELS: f32 = 3.0;
+
+pub(super) const ENTRY: Entry = Entry {
+    name: "ppm",
+    about: "progressive photon mapping: finds caustics seen through glass and in mirrors; noise and blur both vanish",
+    params: &[
+        ParamInfo { name: "photons", about: "light paths a pass, 1 to 1e9 (default: one per pixel)" },
+        ParamInfo { name: "radius", about: "first radius, world units > 0 (default: 3 pixel widths)" },
+        ParamInfo { name: "alpha", about: "how the radius shrinks, 0.01 to 1 (default 2/3; 1 keeps it)" },
+        ParamInfo { name: "kernel", about: "constant, cone or epanechnikov (default constant)" },
+        ParamInfo {
+            name: "direct",
+            about: "light that comes straight from a light: connect or photons (default connect)",
+        },
+    ],
+    mergeable: true,
+    make: |p| {
+        let d = Ppm::default();
+        let photons = p.count("photons", 0, 1..=1_000_000_000)?;
+        let radius = p.number("radius", 0.0, f64::from(f32::MIN_POSITIVE)..=1e30)? as f32;
+        Ok(Box::new(Ppm {
+            limits: p.limits()?,
+            photons: (photons > 0).then_some(photons),
+            radius: (radius > 0.0).then_some(radius),
+            schedule: Schedule { alpha: p.number("alpha", d.schedule.alpha, 0.01..=1.0)? },
+            kernel: Kernel::ALL[p.word("kernel", d.kernel as usize, &Kernel::WORDS)?],
+            direct: [Direct::Connect, Direct::Photons][p.word("direct", d.direct as usize, &["connect", "photons"])?],
+        }))
+    },
+};
+
+/// How light that comes straight from a light is found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direct {
+    /// By drawing a point of a light.
+    Connect,
+    /// By photons, as all other light.
+    Photons,
+}
+
+/// Settings of progressive photon mapping.
+#[derive(Clone, Copy, Debug)]
+pub struct Ppm {
+    /// When paths end.
+    pub limits: Limits,
+    /// Light paths a pass; `None`: one per pixel.
+    pub photons: Option<u64>,
+    /// First radius (world units); `None`: from what pixels cover.
+    pub radius: Option<f32>,
+    /// How the radius shrinks.
+    pub schedule: Schedule,
+    /// What a photon counts.
+    pub kernel: Kernel,
+    /// How direct light is found.
+    pub direct: Direct,
+}
+
+impl Default for Ppm {
+    fn default() -> Self {
+        Self {
+            limits: Limits::default(),
+            photons: None,
+            radius: None,
+            schedule: Schedule::default(),
+            kernel: Kernel::Constant,
+            direct: Direct::Connect,
+        }
+    }
+}
+
+impl Integrator for Ppm {
+    fn prepare<'s>(&'s self, scene: &'s Scene, spec: FilmSpec, seed: u64) -> Box<dyn PassRenderer + 's> {
+        let reach = self.radius.map_or_else(
+            || {
+                let sightings = survey(scene, spec, &self.limits, seed);
+                Reach::from_footprints(&sightings, PIXELS, 1e-3 * scene.bounding_sphere().1)
+            },
+            Reach::fixed,
+        );
+        Box::new(Prepared { scene, settings: self, reach })
+    }
+}
+
+struct Prepared<'s> {
+    scene: &'s Scene,
+    settings: &'s Ppm,
+    reach: Reach,
+}
+
+impl PassRenderer for Prepared<'_> {
+    fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
+        let world = self.scene.world(pass.lambda);
+        let spec = image.spec();
+        let shrink = self.settings.schedule.radius(pass.index);
+        let map = self.shoot(&world, pass, image, shrink);
+        image.fill(|x, y, counts| {
+            let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
+            let mut sampler = Sampler::new(pass.seed, Domain::Camera, pass.index, pixel);
+            let raster = spec.raster(x, y, sampler.next_2d());
+            let camera = self.scene.camera().ray(raster, sampler.next_2d());
+            let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance };
+            let mut look = Look {
+                world: &world,
+                settings: self.settings,
+                map: &map,
+                reach: &self.reach,
+                angle: pixel_angle(camera.solid_angle, spec),
+                shrink,
+                sum: Spectrum::BLACK,
+                counts,
+            };
+            let rays = walk(&world, &start, &self.settings.limits, &mut sampler, &mut look);
+            look.counts.rays += rays;
+            look.sum.to_rgb(pass.lambda)
+        });
+    }
+}
+
+impl Prepared<'_> {
+    fn shoot(&self, world: &World, pass: &Pass, image: &mut PassImage, shrink: f32) -> RadiusMap {
+        let shower = Shower {
+            seed: pass.seed,
+            domain: Domain::Light,
+            pass: pass.index,
+            first: 0,
+            paths: self.settings.photons.unwrap_or(image.spec().pixels() as u64),
+            keep: if self.settings.direct == Direct::Photons { Keep::All } else { Keep::Scattered },
+            limits: self.settings.limits,
+        };
+        let catch = shower.shoot(world);
+        image.counts += catch.counts;
+        RadiusMap::new(&catch, self.reach.typical() * shrink)
+    }
+}
+
+/// Adds up what a camera walk finds.
+struct Look<'w> {
+    world: &'w World<'w>,
+    settings: &'w Ppm,
+    map: &'w RadiusMap,
+    reach: &'w Reach,
+    /// Width of a pixel at distance 1.
+    angle: f32,
+    /// Radius of this pass over the first.
+    shrink: f32,
+    sum: Spectrum,
+    counts: &'w mut Counts,
+}
+
+impl Visit for Look<'_> {
+    #[inline]
+    fn surface(&mut self, a: &Arrival, sampler: &mut Sampler) -> Step {
+        self.sum += a.beta * self.world.emitted(a.at);
+        let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
+        let Some(most) = self.settings.limits.scatterings.checked_sub(a.scatterings + 1) else { return Step::Stop };
+        if a.at.is_connectible() {
+            if self.settings.direct == Direct::Connect {
+                self.counts.rays += 1;
+                self.sum += a.beta * direct(self.world, a.at, u_light, u, |_, _| 1.0);
+            }
+            let radius = self.shrink * self.reach.at(self.angle * a.travelled);
+            let disc = Disc { radius, kernel: self.settings.kernel };
+            self.sum += a.beta * gather_within(self.map, a.at, disc, most);
+        }
+        Step::OnIfDelta
+    }
+    #[inline]
+    fn escape(&mut self, e: &Escape) {
+        for (le, _) in self.world.escaped(e.ray.o, e.ray.d) {
+            self.sum += e.beta * le;
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! The density estimate: reflected radiance from the photons around a point.
+//!
+//! `L = Σ f(wi) Φ K(d)` over the photons in a disc (Jensen 1996, eq. 7): photons give irradiance per area of the true
+//! surface, and [`Interaction::f_photon`] turns it into radiance. It is zero for photons that arrive on a side from
+//! which the material sends nothing to the eye, so light does not leak through thin walls.
+use super::{Kernel, NearestMap, RadiusMap};
+use crate::{scene::Interaction, spectrum::Spectrum};
+use accel::Neighbours;
+use glam::Vec3;
+use std::f32::consts::PI;
+
+/// Where a gather looks.
+#[derive(Clone, Copy, Debug)]
+pub struct Disc {
+    /// Radius, world units, > 0.
+    pub radius: f32,
+    /// What a photon counts.
+    pub kernel: Kernel,
+}
+
+/// Radiance that `at` scatters toward `at.wo` from all photons of the disc around it that were scattered at most `most`
+/// times.
+#[inline]
+pub fn gather_within(map: &RadiusMap, at: &Interaction, disc: Disc, most: u32) -> Spectrum {
+    let r2 = disc.radius * disc.radius;
+    let mut sum = Spectrum::BLACK;
+    map.within(at.p, disc.radius, |photon, d2| {
+        if photon.scatterings <= most {
+            sum += at.f_photon(photon.wi) * photon.flux * disc.kernel.shape(d2, r2);
+        }
+    });
+    sum * (1.0 / (PI * r2))
+}
+
+/// A running search for the nearest photons, reused from place to place.
+#[derive(Clone, Debug)]
+pub struct NearestQuery {
+    /// Photons sought, the one that defines the radius included; at least 2.
+    k: usize,
+    /// The radius that is never exceeded, world units, > 0.
+    r_max: f32,
+    found: Neighbours,
+    /// The last place, and the distance to its `k`-th photon if there were so many.
+    last: Option<(Vec3, f32)>,
+}
+
+/// The smallest radius over the largest. Photons may coincide, and light that is focused to a point is still not
+/// infinitely bright.
+const R_MIN: f32 = 1e-3;
+
+impl NearestQuery {
+    /// A search for `k` photons (at least 2) within `r_max` (world units, positive).
+    pub fn new(k: usize, r_max: f32) -> Self {
+        assert!(k >= 2 && r_max > 0.0, "{k} photons within {r_max} make no estimate");
+        Self { k, r_max, found: Neighbours::new(), last: None }
+    }
+
+    /// Finds the nearest photons; returns how many of them count, and the squared radius of the disc that holds these.
+    ///
+    /// With `k` photons found, the farthest only defines the radius: `k − 1` photons over its disc are an unbiased
+    /// estimate of a constant density, `k` are not. With fewer, all of them count, over the largest disc.
+    #[inline]
+    pub fn find(&mut self, map: &NearestMap, p: Vec3) -> (usize, f32) {
+        map.nearest(p, self.k, self.bound(p), &mut self.found);
+        let full = if self.found.len() == self.k { self.found.farthest() } else { None };
+        self.last = full.map(|(_, d2)| (p, d2.sqrt()));
+        let (least, most) = (R_MIN * self.r_max, self.r_max);
+        match full {
+            Some((_, d2)) if d2 > least * least => (self.k - 1, d2),
+            Some(_) => (self.k, least * least),
+            None => (self.found.len(), most * most),
+        }
+    }
+    /// A radius that holds `k` photons, if the last search found so many: those are no farther than they were then plus
+    /// how far we moved. The answer is the same as with the largest radius, and comes sooner.
+    #[inline]
+    fn bound(&self, p: Vec3) -> f32 {
+        self.last.map_or(self.r_max, |(last, r)| ((r + p.distance(last)) * (1.0 + 1e-5)).min(self.r_max))
+    }
+}
+
+/// Radiance that `at` scatters toward `at.wo` from the photons nearest to it, of which those scattered more than `most`
+/// times count as dark.
+#[inline]
+pub fn gather_nearest(
+    map: &NearestMap,
+    at: &Interaction,
+    query: &mut NearestQuery,
+    kernel: Kernel,
+    most: u32,
+) -> Spectrum {
+    let (count, r2) = query.find(map, at.p);
+    let mut sum = Spectrum::BLACK;
+    for (index, d2) in query.found.iter().take(count) {
+        let photon = map.photon(index);
+        if photon.scatterings <= most {
+            sum += at.f_photon(photon.wi) * photon.flux * kernel.shape(d2, r2);
+        }
+    }
+    sum * (1.0 / (PI * r2))
+}

@@ -1,0 +1,65 @@
+//! Photons beside an index of their positions.
+use super::{Catch, Photon};
+use accel::{KdTree, Neighbours, PointGrid};
+use glam::Vec3;
+use rayon::prelude::*;
+
+/// Finds all photons within a radius.
+pub struct RadiusMap {
+    grid: PointGrid,
+    /// In the order of the grid's slots, so that neighbours in space are neighbours in memory.
+    photons: Vec<Photon>,
+}
+
+impl RadiusMap {
+    /// Sorts a catch for queries of about `radius` (world units, positive and finite); others work, but slower.
+    pub fn new(catch: &Catch, radius: f32) -> Self {
+        let grid = PointGrid::build(&catch.positions, 1.5 * radius);
+        let photons = grid.order().par_iter().map(|&i| catch.photons[i as usize]).collect();
+        Self { grid, photons }
+    }
+    /// Calls `visit(photon, d2)` for every photon at squared distance `d2 <= r·r` from `p`.
+    #[inline]
+    pub fn within(&self, p: Vec3, r: f32, mut visit: impl FnMut(&Photon, f32)) {
+        self.grid.within_slots(p, r, |slot, d2| visit(&self.photons[slot as usize], d2));
+    }
+    /// Photons held.
+    pub fn len(&self) -> usize {
+        self.photons.len()
+    }
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.photons.is_empty()
+    }
+}
+
+/// Finds the photons nearest to a place.
+pub struct NearestMap {
+    tree: KdTree,
+    photons: Vec<Photon>,
+}
+
+impl NearestMap {
+    /// Indexes a catch.
+    pub fn new(catch: Catch) -> Self {
+        Self { tree: KdTree::build(&catch.positions), photons: catch.photons }
+    }
+    /// Fills `out` with the up to `k` photons nearest to `p` among those within `r_max`, nearest first.
+    #[inline]
+    pub fn nearest(&self, p: Vec3, k: usize, r_max: f32, out: &mut Neighbours) {
+        self.tree.nearest(p, k, r_max, out);
+    }
+    /// The photon that an answer of [`NearestMap::nearest`] calls `index`.
+    #[inline]
+    pub fn photon(&self, index: u32) -> &Photon {
+        &self.photons[index as usize]
+    }
+    /// Photons held.
+    pub fn len(&self) -> usize {
+        self.photons.len()
+    }
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.photons.is_empty()
+    }
+}

@@ -1,0 +1,31 @@
+//! Photons: where does the light that arrives at surfaces come from, and how dense is it?
+//!
+//! The way of a photon, one room after the other, never back:
+//!
+//! ```text
+//!  light ──emit──▶ walk ──deposit──▶ map ──gather──▶ integrator
+//!                    │                 ▲      ▲
+//!                    └── the camera's  │      └── kernel: what a photon at a distance counts
+//!                        own walk ─ survey ─ radius: how far a gather reaches
+//! ```
+//!
+//! - [`emit`]: chooses a light and starts a path of known flux;
+//! - [`deposit`]: which arrivals of a path are kept, and a [`Shower`] of many paths, the same for any number of threads;
+//! - [`map`]: photons beside an index of their positions, by radius or by number;
+//! - [`kernel`], [`gather`]: the density estimate;
+//! - [`survey`], [`radius`]: what the camera sees of the scene, and from it the first radius and how it shrinks.
+pub mod deposit;
+pub mod emit;
+pub mod gather;
+pub mod kernel;
+pub mod map;
+pub mod radius;
+pub mod survey;
+
+pub use deposit::{Catch, Keep, Photon, Shower};
+pub use emit::emit;
+pub use gather::{Disc, NearestQuery, gather_nearest, gather_within};
+pub use kernel::Kernel;
+pub use map::{NearestMap, RadiusMap};
+pub use radius::{Reach, Schedule};
+pub use survey::{Sighting, pixel_angle, survey};
