@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 pub mod diagnostic;
+pub mod image;
 mod lines;
 pub mod obj;
 pub mod scn;

@@ -16,8 +16,8 @@ mod tests;
 
 pub use place::{Excerpt, Place, Position, Span};
 pub use sink::{MAX_ERRORS, Sink, WARNINGS_PER_CODE};
-pub(crate) use source::is_line_end;
 pub use source::{MAX_FILE_BYTES, SourceFile, names_near};
+pub(crate) use source::{is_line_end, read_bytes};
 pub use suggest::nearest;
 
 /// How grave a finding is.

@@ -1,0 +1,187 @@
+//! OpenEXR: linear 32-bit float with layers and metadata.
+
+use super::{ImageFile, ImageFormat, RgbImage32, Tone, check_size};
+use exr::meta::MetaData;
+use exr::meta::attribute::{AttributeValue, Text};
+use exr::prelude::{
+    AnyChannel, AnyChannels, Encoding, FlatImage, FlatSamples, Image, Layer, LayerAttributes, WritableImage,
+};
+use exr::prelude::{ReadChannels, ReadLayers, SmallVec};
+use std::io::Cursor;
+
+pub(super) const FORMAT: ImageFormat = ImageFormat {
+    name: "OpenEXR",
+    extensions: &["exr"],
+    about: "OpenEXR: linear RGB, 32-bit float, with layers and metadata",
+    signatures: &[b"\x76\x2F\x31\x01"],
+    read: Some(read),
+    write: Some(write),
+};
+
+/// Names of our metadata in the file begin so, which keeps them apart from the format's own.
+const PREFIX: &str = "sunfleck:";
+
+/// A file may have at most this many channels in all its parts.
+const MAX_CHANNELS: usize = 1024;
+
+fn read(bytes: &[u8]) -> Result<ImageFile, String> {
+    check_header(bytes)?;
+    let image: FlatImage = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .all_layers()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(|e| e.to_string())?;
+    let metadata = metadata(&image);
+    let mut pictures = Vec::new();
+    let many_parts = image.layer_data.len() > 1;
+    for part in image.layer_data {
+        let part_name = part.attributes.layer_name.as_ref().filter(|_| many_parts).map(Text::to_string);
+        let size = (part.size.width() as u32, part.size.height() as u32);
+        pictures.extend(pictures_of_part(part.channel_data, part_name.as_deref(), size));
+    }
+    let is_colour = |p: &Picture| p.is_colour;
+    let main = pictures
+        .iter()
+        .position(|p| p.name.is_empty() && p.is_colour)
+        .or_else(|| pictures.iter().position(is_colour))
+        .or_else(|| (!pictures.is_empty()).then_some(0))
+        .ok_or("it has no channels")?;
+    let image = pictures.remove(main).image;
+    let same_size = |p: &Picture| (p.image.width, p.image.height) == (image.width, image.height);
+    let layers = pictures.into_iter().filter(same_size).map(|p| (p.name, p.image)).collect();
+    Ok(ImageFile { image, layers, metadata })
+}
+
+fn check_header(bytes: &[u8]) -> Result<(), String> {
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| e.to_string())?;
+    let channels: usize = meta.headers.iter().map(|h| h.channels.list.len()).sum();
+    if channels > MAX_CHANNELS {
+        return Err(format!("it has {channels} channels, more than {MAX_CHANNELS}"));
+    }
+    let mut stored = 0_u64;
+    for header in &meta.headers {
+        let (width, height) = (header.layer_size.width() as u64, header.layer_size.height() as u64);
+        let channels = header.channels.list.len() as u64;
+        stored = stored.saturating_add(width.saturating_mul(height).saturating_mul(2 * channels));
+        check_size(width, height, stored, bytes.len())?;
+    }
+    Ok(())
+}
+
+fn metadata(image: &FlatImage) -> Vec<(String, String)> {
+    let shared = image.attributes.other.iter();
+    let of_parts = image.layer_data.iter().flat_map(|part| &part.attributes.other);
+    let mut all: Vec<(String, String)> = shared
+        .chain(of_parts)
+        .filter_map(|(name, value)| {
+            let AttributeValue::Text(text) = value else { return None };
+            let name = name.to_string();
+            Some((name.strip_prefix(PREFIX).unwrap_or(&name).to_owned(), text.to_string()))
+        })
+        .collect();
+    all.sort_unstable();
+    all.dedup_by(|a, b| a.0 == b.0);
+    all
+}
+
+struct Picture {
+    name: String,
+    image: RgbImage32,
+    is_colour: bool,
+}
+
+/// Groups the channels `layer.R`, `layer.G`, `layer.B` (or X, Y, Z) to pictures; any other channel is a grey one.
+fn pictures_of_part(
+    channels: AnyChannels<FlatSamples>,
+    part: Option<&str>,
+    (width, height): (u32, u32),
+) -> Vec<Picture> {
+    let mut groups: Vec<(String, Vec<AnyChannel<FlatSamples>>)> = Vec::new();
+    // Subsampled channels have fewer samples.
+    let is_full = |c: &AnyChannel<FlatSamples>| c.sample_data.len() == width as usize * height as usize;
+    for channel in channels.list.into_iter().filter(is_full) {
+        let full = channel.name.to_string();
+        let prefix = full.rsplit_once('.').map_or("", |(prefix, _)| prefix).to_owned();
+        match groups.iter_mut().find(|(name, _)| *name == prefix) {
+            Some((_, group)) => group.push(channel),
+            None => groups.push((prefix, vec![channel])),
+        }
+    }
+    let mut pictures = Vec::new();
+    for (prefix, group) in groups {
+        let layer: Vec<&str> = part.into_iter().chain([prefix.as_str()]).filter(|s| !s.is_empty()).collect();
+        let layer = layer.join(".");
+        let find = |base: &str| group.iter().position(|c| base_name(c).eq_ignore_ascii_case(base));
+        let triple = [["R", "G", "B"], ["X", "Y", "Z"]].into_iter().find_map(|names| {
+            let [a, b, c] = names.map(find);
+            Some([a?, b?, c?])
+        });
+        let mut grey: Vec<usize> = (0..group.len()).collect();
+        if let Some(triple) = triple {
+            let data = interleave(triple.map(|i| &group[i].sample_data));
+            pictures.push(Picture { name: layer.clone(), image: RgbImage32 { width, height, data }, is_colour: true });
+            grey.retain(|i| !triple.contains(i) && !base_name(&group[*i]).eq_ignore_ascii_case("A"));
+        }
+        for i in grey {
+            let base = base_name(&group[i]);
+            let is_luminance = base.eq_ignore_ascii_case("Y") && triple.is_none();
+            let name = match (is_luminance, layer.is_empty()) {
+                (true, _) => layer.clone(),
+                (false, true) => base,
+                (false, false) => format!("{layer}.{base}"),
+            };
+            let data = interleave([&group[i].sample_data; 3]);
+            pictures.push(Picture { name, image: RgbImage32 { width, height, data }, is_colour: is_luminance });
+        }
+    }
+    pictures
+}
+
+fn base_name(channel: &AnyChannel<FlatSamples>) -> String {
+    let full = channel.name.to_string();
+    full.rsplit_once('.').map_or(full.clone(), |(_, base)| base.to_owned())
+}
+
+fn interleave([r, g, b]: [&FlatSamples; 3]) -> Vec<[f32; 3]> {
+    let pairs = r.values_as_f32().zip(g.values_as_f32()).zip(b.values_as_f32());
+    pairs.map(|((r, g), b)| [r, g, b]).collect()
+}
+
+fn write(file: &ImageFile, _: Tone) -> Result<Vec<u8>, String> {
+    let mut list = SmallVec::new();
+    add_channels(&mut list, "", &file.image);
+    for (name, image) in &file.layers {
+        let wrong = |c: char| c.is_control() || !c.is_ascii();
+        if name.is_empty() || name.contains(wrong) || file.layers.iter().filter(|(n, _)| n == name).count() > 1 {
+            return Err(format!("`{name}` cannot name a layer: empty, not ASCII, or there twice"));
+        }
+        add_channels(&mut list, name, image);
+    }
+    let mut attributes = LayerAttributes { software_name: text("sunfleck"), ..LayerAttributes::default() };
+    for (name, value) in &file.metadata {
+        let key = text(&format!("{PREFIX}{name}")).ok_or_else(|| format!("`{name}` cannot name metadata"))?;
+        let value = text(value).ok_or_else(|| format!("the value of `{name}` cannot be stored"))?;
+        attributes.other.insert(key, AttributeValue::Text(value));
+    }
+    let size = (file.image.width as usize, file.image.height as usize);
+    let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(list));
+    let mut bytes = Vec::new();
+    Image::from_layer(layer).write().to_buffered(Cursor::new(&mut bytes)).map_err(|e| e.to_string())?;
+    Ok(bytes)
+}
+
+/// The format knows Latin-1 only.
+fn text(value: &str) -> Option<Text> {
+    Text::new_or_none(value)
+}
+
+fn add_channels(list: &mut SmallVec<[AnyChannel<FlatSamples>; 4]>, layer: &str, image: &RgbImage32) {
+    for (i, base) in ["R", "G", "B"].into_iter().enumerate() {
+        let name = if layer.is_empty() { base.to_owned() } else { format!("{layer}.{base}") };
+        let samples = FlatSamples::F32(image.data.iter().map(|p| p[i]).collect());
+        list.push(AnyChannel::new(name.as_str(), samples));
+    }
+}
