@@ -47,19 +47,15 @@ impl Sampler {
     /// One number in [0, 1).
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
-        let (index, k) = match self.next_draw() {
-            Some(v) => v,
-            None => return unit(self.next_late()),
-        };
+        let Some((index, k)) = self.next_draw() else { return unit(self.next_late()) };
         unit(owen(index.reverse_bits(), k ^ 0x68bc_21eb))
     }
 
     /// Two numbers in [0, 1), stratified together.
     #[inline]
     pub fn next_2d(&mut self) -> glam::Vec2 {
-        let (index, k) = match self.next_draw() {
-            Some(v) => v,
-            None => return glam::Vec2::new(unit(self.next_late()), unit(self.next_late())),
+        let Some((index, k)) = self.next_draw() else {
+            return glam::Vec2::new(unit(self.next_late()), unit(self.next_late()));
         };
         let x = owen(index.reverse_bits(), k ^ 0x68bc_21eb);
         let y = owen(sobol_second(index), k ^ 0x02e5_be93);

@@ -32,6 +32,9 @@ impl Film {
         self.passes
     }
     /// Adds one estimate.
+    ///
+    /// # Panics
+    /// If the estimate is of another size or filter.
     pub fn add(&mut self, image: &PassImage) {
         assert_eq!(self.spec, image.spec(), "a pass of another picture");
         let add = |((sum, sq), p): ((&mut DVec3, &mut DVec3), &Rgb)| {
@@ -48,6 +51,9 @@ impl Film {
         self.passes += 1;
     }
     /// Adds the passes of another film of the same picture.
+    ///
+    /// # Panics
+    /// If the other film is of another size or filter.
     pub fn merge(&mut self, other: &Self) {
         assert_eq!(self.spec, other.spec, "a film of another picture");
         self.sum.iter_mut().zip(&other.sum).for_each(|(a, b)| *a += *b);

@@ -83,7 +83,7 @@ impl Visit for Collect<'_> {
         let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
         if a.scatterings < self.limits.scatterings && a.at.is_connectible() {
             self.rays += 1;
-            self.sum += a.beta * direct(self.world, a.at, u_light, u, |pdf, pdf_bsdf| power_heuristic(pdf, pdf_bsdf));
+            self.sum += a.beta * direct(self.world, a.at, u_light, u, power_heuristic);
         }
         self.from = a.at.p;
         Step::On

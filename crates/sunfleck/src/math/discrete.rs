@@ -105,7 +105,7 @@ mod tests {
             count[row] += 1;
         }
         assert_eq!(count, [0, 250, 0, 750, 0, 0]);
-        assert_eq!(d.sample(0.99999994).unwrap().0, 3);
+        assert_eq!(d.sample(0.999_999_94).unwrap().0, 3);
         assert!(Discrete::new([]).sample(0.5).is_none());
     }
 
