@@ -1,5 +1,5 @@
 //! Indexed triangles with optional vertex normals and texture coordinates.
-use super::{AreaSample, SurfacePoint, gamma};
+use super::{AreaSample, SurfacePoint, gamma, plane_error};
 use crate::math::{Discrete, warp::square_to_triangle};
 use accel::Hit;
 use glam::{Affine3A, Vec2, Vec3};
@@ -84,7 +84,8 @@ impl Mesh {
         let (pa, pb, pc) = ((1.0 - u - v) * a, u * b, v * c);
         // Barycentrics are themselves rounded; a moved barycentric moves the point within the plane only.
         let p_error = gamma(7.0) * (pa.abs() + pb.abs() + pc.abs());
-        (pa + pb + pc, p_error, (b - a).cross(c - a).normalize_or(Vec3::Z))
+        let normal = (b - a).cross(c - a);
+        (pa + pb + pc, p_error + plane_error(b - a, c - a, normal), normal.normalize_or(Vec3::Z))
     }
     #[inline]
     pub(super) fn surface_point(&self, hit: &Hit) -> SurfacePoint {

@@ -57,6 +57,23 @@ pub(crate) fn gamma(n: f32) -> f32 {
     e / (1.0 - e)
 }
 
+/// Error to add to a point of a triangle with edges `e1` and `e2` from one corner, so that a ray started beyond it is not
+/// found to hit the triangle at a small positive distance.
+///
+/// The ray index computes distances from barycentrics, of which each edge function is off by some roundings of L², L being
+/// the longest edge. Seen along the normal that moves the plane by about ε·L·(L²/2A), however the ray grazes.
+#[inline]
+pub(crate) fn plane_error(e1: Vec3, e2: Vec3, normal: Vec3) -> Vec3 {
+    let l2 = e1.length_squared().max(e2.length_squared()).max((e1 - e2).length_squared());
+    let elongation = (l2 / normal.length().max(f32::MIN_POSITIVE)).min(MAX_ELONGATION);
+    gamma(PLANE_ROUNDINGS) * l2.sqrt() * elongation * normal.normalize_or(Vec3::Z).abs()
+}
+
+/// Roundings that [`plane_error`] allows for: four times what `tests/shape_self_hits.rs` needs.
+const PLANE_ROUNDINGS: f32 = 4.0;
+/// Thinner needles are not worth the distance they would need: light would leak past their neighbours.
+const MAX_ELONGATION: f32 = 64.0;
+
 impl Shape {
     /// The point that `hit` describes, in the shape's own space; `o + t d` is the hit for shapes that need it.
     #[inline]

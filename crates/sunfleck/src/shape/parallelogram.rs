@@ -1,5 +1,5 @@
 //! A flat patch `p + a u + b v` with a, b in [0, 1]: NRenderer's plane, and the usual area light.
-use super::{AreaSample, SurfacePoint, gamma};
+use super::{AreaSample, SurfacePoint, gamma, plane_error};
 use accel::Hit;
 use glam::{Affine3A, Vec2, Vec3};
 
@@ -29,7 +29,8 @@ impl Parallelogram {
     #[inline]
     fn at(&self, a: f32, b: f32) -> (Vec3, Vec3) {
         let (au, bv) = (a * self.u, b * self.v);
-        (self.p + au + bv, gamma(5.0) * (self.p.abs() + au.abs() + bv.abs()))
+        let rounding = gamma(5.0) * (self.p.abs() + au.abs() + bv.abs());
+        (self.p + au + bv, rounding + plane_error(self.u, self.u + self.v, self.u.cross(self.v)))
     }
     #[inline]
     pub(super) fn surface_point(&self, hit: &Hit) -> SurfacePoint {
