@@ -5,6 +5,7 @@
 
 mod aabb;
 mod bvh;
+mod memory;
 mod points;
 mod ray;
 

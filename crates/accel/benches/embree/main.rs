@@ -79,18 +79,15 @@ fn compare(name: &str, mesh: &Mesh, library: &std::path::Path, options: &Options
     let geometry = Geometry::Triangles { positions: &mesh.positions, indices: &mesh.indices };
     let quality = if options.quality == Quality::High { 2 } else { 1 };
     let mut kept = None;
-    println!("\n| build | threads | seconds | MiB |\n|---|---|---|---|");
+    println!("\n| build | threads | seconds | CPU seconds | MiB |\n|---|---|---|---|---|");
     for threads in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
         for _ in 0..options.reps.min(3) {
-            let start = Instant::now();
-            let embree = ffi::Scene::build(library, &positions, &mesh.indices, quality, threads).expect("Embree");
-            let embree_time = start.elapsed().as_secs_f64();
-            let start = Instant::now();
-            let own = pool.install(|| Bvh::build(&[geometry], &[], &[], options.quality));
-            let own_time = start.elapsed().as_secs_f64();
-            println!("| Embree | {threads} | {embree_time:.2} | {:.1} |", embree.bytes as f64 / 1048576.0);
-            println!("| own | {threads} | {own_time:.2} | {:.1} |", own.memory_bytes() as f64 / 1048576.0);
+            let (embree, time) =
+                timed(|| ffi::Scene::build(library, &positions, &mesh.indices, quality, threads).expect("Embree"));
+            println!("| Embree | {threads} | {time} | {:.1} |", embree.bytes as f64 / 1_048_576.0);
+            let (own, time) = timed(|| pool.install(|| Bvh::build(&[geometry], &[], &[], options.quality)));
+            println!("| own | {threads} | {time} | {:.1} |", own.memory_bytes() as f64 / 1_048_576.0);
             kept = Some((embree, own));
         }
     }
@@ -139,22 +136,30 @@ fn run(rays: &[Ray], threads: usize, query: impl Fn(&Ray) -> bool + Sync) -> (f6
     let next = AtomicUsize::new(0);
     std::thread::scope(|scope| {
         let worker = || {
-            let start = thread_seconds();
+            let start = seconds(libc::CLOCK_THREAD_CPUTIME_ID);
             let mut hits = 0;
             while let Some(chunk) = rays.chunks(CHUNK).nth(next.fetch_add(1, Relaxed)) {
                 hits += chunk.iter().filter(|ray| query(ray)).count();
             }
-            (thread_seconds() - start, hits)
+            (seconds(libc::CLOCK_THREAD_CPUTIME_ID) - start, hits)
         };
         let workers: Vec<_> = (0..threads).map(|_| scope.spawn(worker)).collect();
         workers.into_iter().map(|w| w.join().expect("a worker")).fold((0.0, 0), |a, b| (a.0 + b.0, a.1 + b.1))
     })
 }
 
-/// CPU time of this thread.
-fn thread_seconds() -> f64 {
+/// What `work` gives, and its wall-clock and CPU seconds as two cells of a table.
+fn timed<T>(work: impl FnOnce() -> T) -> (T, String) {
+    let (start, cpu) = (Instant::now(), seconds(libc::CLOCK_PROCESS_CPUTIME_ID));
+    let result = work();
+    let cpu = seconds(libc::CLOCK_PROCESS_CPUTIME_ID) - cpu;
+    (result, format!("{:.2} | {cpu:.2}", start.elapsed().as_secs_f64()))
+}
+
+/// Seconds on one of the system's clocks.
+fn seconds(clock: libc::clockid_t) -> f64 {
     let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };
     // SAFETY: the call only writes to `time`.
-    unsafe { libc::clock_gettime(libc::CLOCK_THREAD_CPUTIME_ID, &raw mut time) };
+    unsafe { libc::clock_gettime(clock, &raw mut time) };
     time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }

@@ -2,9 +2,10 @@
 
 use super::{
     binning::ObjectSplit,
-    collapse::{Forest, Plan},
+    collapse::{Forest, Plan, Size},
     refs::{Bounds, Owner, Ref},
 };
+use crate::memory::large_vec;
 
 /// Below this depth ranges are halved by count, so that no input makes a deep tree.
 const FAIR_DEPTH: usize = 40;
@@ -16,16 +17,12 @@ const PARALLEL: usize = 4096;
 /// A node of the binary hierarchy, stored before its descendants; the left child follows directly.
 #[derive(Clone, Copy)]
 pub(super) struct Binary {
-    pub(super) bounds: Bounds,
-    pub(super) kind: Kind,
-}
-
-#[derive(Clone, Copy)]
-pub(super) enum Kind {
-    /// Distance from this node to its right child, and how to make it wide.
-    Inner { right: u32, plan: Plan },
-    /// The one reference below.
-    Primitive(Owner),
+    /// The box; of a primitive also its owner, else the distance from this node to its right child.
+    pub(super) entry: Ref,
+    /// How to make it wide.
+    pub(super) plan: Plan,
+    /// What it takes as one root.
+    pub(super) size: Size,
 }
 
 /// A range of references with its boxes.
@@ -41,8 +38,9 @@ pub(super) fn build(refs: &mut [Ref]) -> Vec<Binary> {
     if refs.is_empty() {
         return Vec::new();
     }
-    let blank = Binary { bounds: Bounds::EMPTY, kind: Kind::Inner { right: 0, plan: Plan::default() } };
-    let mut nodes = vec![blank; 2 * refs.len() - 1];
+    let blank = Binary { entry: refs[0], plan: Plan::PRIMITIVE, size: Size::default() };
+    let mut nodes = large_vec(2 * refs.len() - 1);
+    nodes.resize(2 * refs.len() - 1, blank);
     let (bounds, centres) = measure(refs);
     subdivide(Range { refs, bounds, centres, depth: 0 }, &mut nodes);
     nodes
@@ -60,12 +58,12 @@ fn measure(refs: &[Ref]) -> (Bounds, Bounds) {
 fn subdivide(range: Range, nodes: &mut [Binary]) -> Forest {
     let half_area = range.bounds.half_area();
     let (node, below) = nodes.split_first_mut().expect("a range has a node");
-    node.bounds = range.bounds;
-    if let [reference] = range.refs {
-        let owner = reference.owner();
-        node.kind = Kind::Primitive(owner);
-        return Forest::primitive(half_area, matches!(owner, Owner::Triangle { .. })).0;
+    if let &mut [reference] = range.refs {
+        let forest = Forest::primitive(half_area, matches!(reference.owner(), Owner::Triangle { .. }));
+        *node = Binary { entry: reference, plan: Plan::PRIMITIVE, size: forest.size() };
+        return forest;
     }
+    let bounds = range.bounds;
     let (left, right) = split(range);
     let (left_nodes, right_nodes) = below.split_at_mut(2 * left.refs.len() - 1);
     let right_at = left_nodes.len() as u32 + 1;
@@ -75,7 +73,7 @@ fn subdivide(range: Range, nodes: &mut [Binary]) -> Forest {
         (subdivide(left, left_nodes), subdivide(right, right_nodes))
     };
     let (forest, plan) = Forest::join(&left, &right, half_area);
-    node.kind = Kind::Inner { right: right_at, plan };
+    *node = Binary { entry: Ref::numbered(&bounds, right_at), plan, size: forest.size() };
     forest
 }
 

@@ -13,11 +13,13 @@ const MAX_LEAF: u32 = (LANES * Child::MAX_BLOCKS) as u32;
 
 /// The optimal choices for one binary subtree: for a forest of i roots, how many go to the left child (0: as with i - 1
 /// roots), and whether the subtree as one root is a leaf.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Plan(u32);
 
 impl Plan {
     const LEAF: u32 = 1 << 31;
+    /// The plan of a single primitive.
+    pub(super) const PRIMITIVE: Self = Self(Self::LEAF | 1);
 
     /// Roots given to the left child when the subtree is represented by `i` roots, 2 to 8.
     pub(super) const fn left_roots(self, i: usize) -> usize {
@@ -29,11 +31,31 @@ impl Plan {
     }
 }
 
+/// Wide nodes and triangle blocks needed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Size {
+    pub(super) nodes: u32,
+    pub(super) blocks: u32,
+}
+
+impl Size {
+    fn plus(self, other: Self) -> Self {
+        Self { nodes: self.nodes + other.nodes, blocks: self.blocks + other.blocks }
+    }
+}
+
+/// The best forest of at most so many roots.
+#[derive(Clone, Copy)]
+struct Choice {
+    cost: f32,
+    size: Size,
+}
+
 /// What a parent needs to know about a subtree to choose.
 #[derive(Clone, Copy)]
 pub(super) struct Forest {
-    /// `cost[i]`: least cost with at most i + 1 roots.
-    cost: [f32; 7],
+    /// `best[i]`: with at most i + 1 roots.
+    best: [Choice; 7],
     /// References below.
     count: u32,
     /// Whether all of them are triangles, so that they can share a leaf.
@@ -41,37 +63,55 @@ pub(super) struct Forest {
 }
 
 impl Forest {
-    pub(super) fn primitive(half_area: f32, is_triangle: bool) -> (Self, Plan) {
-        (Self { cost: [half_area * BLOCK_COST; 7], count: 1, blocks: is_triangle }, Plan(Plan::LEAF))
+    pub(super) fn primitive(half_area: f32, is_triangle: bool) -> Self {
+        let size = Size { nodes: 0, blocks: u32::from(is_triangle) };
+        Self { best: [Choice { cost: half_area * BLOCK_COST, size }; 7], count: 1, blocks: is_triangle }
+    }
+
+    /// Tables needed for the subtree as one root.
+    pub(super) fn size(&self) -> Size {
+        self.best[0].size
     }
 
     pub(super) fn join(left: &Self, right: &Self, half_area: f32) -> (Self, Plan) {
+        let pair = |k: usize, roots: usize| left.best[k - 1].cost + right.best[roots - k - 1].cost;
         let mut plan = 0;
-        let mut best = [f32::INFINITY; 9];
-        for (roots, best) in best.iter_mut().enumerate().skip(2) {
-            for k in 1.max(roots.saturating_sub(7))..roots.min(8) {
-                let cost = left.cost[k - 1] + right.cost[roots - k - 1];
-                if cost < *best || k == 1.max(roots.saturating_sub(7)) {
-                    *best = cost;
-                    plan = plan & !(7 << (3 * roots)) | (k as u32) << (3 * roots);
+        let mut choice = |roots: usize| {
+            let first = 1.max(roots.saturating_sub(7));
+            let (mut best, mut cost) = (first, pair(first, roots));
+            for k in first + 1..roots.min(8) {
+                let other = pair(k, roots);
+                if other < cost {
+                    (best, cost) = (k, other);
                 }
             }
-        }
+            plan = plan & !(7 << (3 * roots)) | (best as u32) << (3 * roots);
+            Choice { cost, size: left.best[best - 1].size.plus(right.best[roots - best - 1].size) }
+        };
+        let inner = choice(8);
+        let inner = Choice {
+            cost: inner.cost + half_area * NODE_COST,
+            size: inner.size.plus(Size { nodes: 1, blocks: 0 }),
+        };
         let count = left.count + right.count;
         let blocks = left.blocks && right.blocks;
-        let inner = half_area * NODE_COST + best[8];
-        let leaf = half_area * BLOCK_COST * count.div_ceil(LANES as u32) as f32;
-        let is_leaf = blocks && count <= MAX_LEAF && leaf <= inner;
-        let mut cost = [if is_leaf { leaf } else { inner }; 7];
+        let in_leaf = count.div_ceil(LANES as u32);
+        let leaf = Choice { cost: half_area * BLOCK_COST * in_leaf as f32, size: Size { nodes: 0, blocks: in_leaf } };
+        let is_leaf = blocks && count <= MAX_LEAF && leaf.cost <= inner.cost;
+        let mut best = [if is_leaf { leaf } else { inner }; 7];
         for roots in 2..=7 {
-            cost[roots - 1] = cost[roots - 2].min(best[roots]);
-            if best[roots] >= cost[roots - 2] {
+            let forest = choice(roots);
+            best[roots - 1] = if forest.cost < best[roots - 2].cost { forest } else { best[roots - 2] };
+        }
+        // Where a root more does not help, say so.
+        for roots in 2..=7 {
+            if best[roots - 1].cost >= best[roots - 2].cost {
                 plan &= !(7 << (3 * roots));
             }
         }
         if is_leaf {
             plan |= Plan::LEAF;
         }
-        (Self { cost, count, blocks }, Plan(plan))
+        (Self { best, count, blocks }, Plan(plan))
     }
 }

@@ -56,9 +56,15 @@ impl Child {
         self.0 & Self::LEAF == 0
     }
 
-    /// The index of the node, first block, sphere or instance.
+    /// The index of an inner node.
     #[inline(always)]
-    pub(super) const fn index(self) -> u32 {
+    pub(super) const fn node(self) -> usize {
+        self.0 as usize
+    }
+
+    /// The index of the first block, sphere or instance.
+    #[inline(always)]
+    const fn index(self) -> u32 {
         self.0 & Self::INDEX
     }
 

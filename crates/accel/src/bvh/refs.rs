@@ -54,6 +54,16 @@ impl Ref {
         }
     }
 
+    /// A box that carries a number instead of an owner.
+    pub(super) fn numbered(bounds: &Bounds, number: u32) -> Self {
+        Self { lo_and_primitive: bounds.lo, hi_and_owner: bounds.hi.with_w(f32::from_bits(number)) }
+    }
+
+    /// The number of a box made by [`Ref::numbered`].
+    pub(super) fn number(&self) -> u32 {
+        self.hi_and_owner.w.to_bits()
+    }
+
     #[inline(always)]
     pub(super) fn bounds(&self) -> Bounds {
         Bounds { lo: xyz(self.lo_and_primitive), hi: xyz(self.hi_and_owner) }

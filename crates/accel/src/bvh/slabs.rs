@@ -53,7 +53,8 @@ impl<S: Simd> Slabs<S> {
         for axis in 0..3 {
             // SAFETY: `near_plane` is below 6 by construction, and so is its neighbour.
             let (first, second) = unsafe {
-                (node.planes.get_unchecked(self.near_plane[axis]), node.planes.get_unchecked(self.near_plane[axis] ^ 1))
+                let near_plane = self.near_plane[axis];
+                (node.planes.get_unchecked(near_plane), node.planes.get_unchecked(near_plane ^ 1))
             };
             // A NaN is dropped, as `min` and `max` return their second operand then.
             near = s.max8(s.fmadd8(s.load8(first), self.near_scale[axis], self.near_offset[axis]), near);

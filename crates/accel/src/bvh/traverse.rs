@@ -74,9 +74,9 @@ fn traverse<S: Simd, const ANY: bool, F: Fn(&Hit) -> bool>(
         let mut tmax8 = s.splat8(tmax);
         loop {
             if child.is_inner() {
-                debug_assert!((child.index() as usize) < tables.nodes.len());
+                debug_assert!(child.node() < tables.nodes.len());
                 // SAFETY: the builder only writes indices of nodes that exist.
-                let node = unsafe { tables.nodes.get_unchecked(child.index() as usize) };
+                let node = unsafe { tables.nodes.get_unchecked(child.node()) };
                 let (near, mask) = slabs.enter(s, node, tmin8, tmax8);
                 if mask != 0 {
                     if mask & (mask - 1) == 0 {

@@ -80,6 +80,6 @@ pub(super) trait Simd: Copy {
 
     /// Pushes the children in `mask` (at least two) but the nearest, far ones first, and returns the nearest.
     fn push_sorted(self, stack: &mut Stack, children: &[Child; 8], near: Self::F8, mask: u32) -> Child;
-    /// Pushes the children in `mask` (at least two) but the first, last ones first, and returns the first.
+    /// Pushes the children in `mask` (at least two) but the last, in the order of their slots, and returns the last.
     fn push_any(self, stack: &mut Stack, children: &[Child; 8], mask: u32) -> Child;
 }

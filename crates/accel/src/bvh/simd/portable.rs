@@ -140,15 +140,14 @@ pub(super) fn push_sorted(stack: &mut Stack, children: &[Child; 8], near: &[f32;
     children[nearest & 7]
 }
 
-/// Pushes the children in `mask` in falling order of their slots.
+/// Pushes the children in `mask` in rising order of their slots and returns the last.
 #[inline(always)]
 pub(super) fn push_any(stack: &mut Stack, children: &[Child; 8], mut mask: u32) -> Child {
-    let first = mask.trailing_zeros() as usize;
-    mask &= mask - 1;
+    let last = 31 - mask.leading_zeros() as usize;
+    mask ^= 1 << last;
     while mask != 0 {
-        let last = 31 - mask.leading_zeros() as usize;
-        mask ^= 1 << last;
-        stack.push(0.0, children[last & 7]);
+        stack.push(0.0, children[mask.trailing_zeros() as usize & 7]);
+        mask &= mask - 1;
     }
-    children[first & 7]
+    children[last & 7]
 }

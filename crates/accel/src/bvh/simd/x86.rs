@@ -93,11 +93,88 @@ impl Simd for Avx512 {
 
     #[inline(always)]
     fn push_sorted(self, stack: &mut Stack, children: &[Child; 8], near: __m256, mask: u32) -> Child {
-        push_sorted(stack, children, &self.store8(near), mask)
+        // SAFETY: `self` proves that the processor has the instructions.
+        unsafe { push_sorted_avx512(stack, children, near, mask) }
     }
 
     #[inline(always)]
     fn push_any(self, stack: &mut Stack, children: &[Child; 8], mask: u32) -> Child {
-        push_any(stack, children, mask)
+        // SAFETY: `self` proves that the processor has the instructions, and `slot` gives room for a vector.
+        unsafe {
+            let all = _mm256_loadu_si256(children.as_ptr().cast());
+            let (keys, slots) = stack.slot(stack.len());
+            _mm256_storeu_ps(keys, _mm256_setzero_ps());
+            _mm256_storeu_si256(slots.cast(), _mm256_maskz_compress_epi32(mask as __mmask8, all));
+            stack.grow(mask.count_ones() as usize - 1);
+        }
+        children[(31 - mask.leading_zeros() as usize) & 7]
     }
+}
+
+/// Sorts with a network. Distances are not negative, so their bits sort as integers; the lowest three bits are replaced
+/// by the slot of the child, which a permutation can then use as its index.
+#[inline(always)]
+unsafe fn push_sorted_avx512(stack: &mut Stack, children: &[Child; 8], near: __m256, mask: u32) -> Child {
+    // SAFETY: the caller's token proves that the processor has the instructions, and `slot` gives room for a vector.
+    unsafe {
+        let slots = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+        let distances = _mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(near));
+        let tagged = _mm256_or_si256(distances, slots);
+        let all = _mm256_loadu_si256(children.as_ptr().cast());
+        let count = mask.count_ones() as usize;
+        // Unused lanes are -1: the largest when compared without sign, for the minimum; the smallest with sign, so
+        // that they sort behind everything.
+        let packed = _mm256_mask_compress_epi32(_mm256_set1_epi32(-1), mask as __mmask8, tagged);
+        let low = _mm256_castsi256_si128(packed);
+        let (keys, slots) = stack.slot(stack.len());
+        let nearest = if count <= 4 {
+            let sorted = sort4_falling(low);
+            _mm_storeu_si128(keys.cast(), _mm_andnot_si128(_mm_set1_epi32(7), sorted));
+            let ordered = _mm256_permutevar8x32_epi32(all, _mm256_castsi128_si256(sorted));
+            _mm_storeu_si128(slots.cast(), _mm256_castsi256_si128(ordered));
+            least(low)
+        } else {
+            let sorted = sort8_falling(packed);
+            _mm256_storeu_si256(keys.cast(), _mm256_andnot_si256(_mm256_set1_epi32(7), sorted));
+            _mm256_storeu_si256(slots.cast(), _mm256_permutevar8x32_epi32(all, sorted));
+            least(_mm_min_epu32(low, _mm256_extracti128_si256::<1>(packed)))
+        };
+        stack.grow(count - 1);
+        *children.get_unchecked(nearest as usize & 7)
+    }
+}
+
+/// The least of four integers without sign.
+#[inline]
+#[target_feature(enable = "avx2,avx512f,avx512vl")]
+fn least(x: __m128i) -> u32 {
+    let x = _mm_min_epu32(x, _mm_shuffle_epi32::<0b01_00_11_10>(x));
+    _mm_cvtsi128_si32(_mm_min_epu32(x, _mm_shuffle_epi32::<0b10_11_00_01>(x))) as u32
+}
+
+/// A sorting network of three layers.
+#[inline]
+#[target_feature(enable = "avx2,avx512f,avx512vl")]
+fn sort4_falling(x: __m128i) -> __m128i {
+    let y = _mm_shuffle_epi32::<0b01_00_11_10>(x);
+    let x = _mm_blend_epi32::<0b1100>(_mm_max_epi32(x, y), _mm_min_epi32(x, y));
+    let y = _mm_shuffle_epi32::<0b10_11_00_01>(x);
+    let x = _mm_blend_epi32::<0b1010>(_mm_max_epi32(x, y), _mm_min_epi32(x, y));
+    let y = _mm_shuffle_epi32::<0b11_01_10_00>(x);
+    let swapped = _mm_blend_epi32::<0b0100>(_mm_max_epi32(x, y), _mm_min_epi32(x, y));
+    _mm_blend_epi32::<0b0110>(x, swapped)
+}
+
+/// A sorting network of six layers (the 19 comparators of Knuth, The Art of Computer Programming 3, 5.3.4).
+#[inline]
+#[target_feature(enable = "avx2,avx512f,avx512vl")]
+fn sort8_falling(x: __m256i) -> __m256i {
+    // A lane without a partner is its own partner.
+    let layer = |x: __m256i, y: __m256i, low: __mmask8| _mm256_mask_max_epi32(_mm256_min_epi32(x, y), low, x, y);
+    let x = layer(x, _mm256_shuffle_epi32::<0b01_00_11_10>(x), 0b0011_0011);
+    let x = layer(x, _mm256_permute2x128_si256::<1>(x, x), 0b0000_1111);
+    let x = layer(x, _mm256_shuffle_epi32::<0b10_11_00_01>(x), 0b0101_0101);
+    let x = layer(x, _mm256_permutevar8x32_epi32(x, _mm256_setr_epi32(0, 1, 4, 5, 2, 3, 6, 7)), 0b0000_1100);
+    let x = layer(x, _mm256_permutevar8x32_epi32(x, _mm256_setr_epi32(0, 4, 2, 6, 1, 5, 3, 7)), 0b0000_1010);
+    layer(x, _mm256_permutevar8x32_epi32(x, _mm256_setr_epi32(0, 2, 1, 4, 3, 6, 5, 7)), 0b0010_1010)
 }
