@@ -1,0 +1,92 @@
+//! An algorithm's picture of a tiny scene as block means with variances.
+use sunfleck::{
+    film::{Filter, FilmSpec, PassImage},
+    integrator::{Params, Pass, find},
+    scene::Scene,
+    spectrum::Wavelengths,
+};
+
+/// Edge of a picture and of a block in pixels.
+const SIZE: u32 = 24;
+const BLOCK: usize = 6;
+const BLOCKS_A_ROW: usize = SIZE as usize / BLOCK;
+
+/// A mean over passes and the variance of that mean.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Moment {
+    pub(crate) mean: f64,
+    pub(crate) variance: f64,
+}
+
+/// Means of blocks (channel by channel) and of whole pictures.
+pub(crate) struct Estimate {
+    pub(crate) name: &'static str,
+    pub(crate) blocks: Vec<Moment>,
+    picture: Moment,
+}
+
+impl Estimate {
+    pub(crate) fn picture(&self) -> Moment {
+        self.picture
+    }
+}
+
+/// Sums of values and squares over passes.
+#[derive(Clone, Copy, Default)]
+struct Sums(f64, f64);
+
+impl Sums {
+    fn add(&mut self, v: f64) {
+        self.0 += v;
+        self.1 += v * v;
+    }
+    fn moment(self, n: f64) -> Moment {
+        let mean = self.0 / n;
+        Moment { mean, variance: ((self.1 / n - mean * mean) / (n - 1.0)).max(0.0) }
+    }
+}
+
+pub(crate) fn estimate(scene: &Scene, name: &'static str, passes: u64) -> Estimate {
+    let entry = find(name).unwrap_or_else(|| panic!("no algorithm {name}"));
+    let mut params = Params::default();
+    for (key, value) in settings(name) {
+        params.set(*key, *value);
+    }
+    let integrator = entry.build(params).expect("settings of this file");
+    let spec = FilmSpec { width: SIZE, height: SIZE, filter: Filter::Box };
+    // A seed of its own for each algorithm: shared noise must not pass for agreement.
+    let seed = name.bytes().fold(17, |h: u64, b| h.wrapping_mul(31) + u64::from(b));
+    let prepared = integrator.prepare(scene, spec, seed);
+    let mut image = PassImage::new(spec);
+    let mut blocks = vec![Sums::default(); BLOCKS_A_ROW * BLOCKS_A_ROW * 3];
+    let mut picture = Sums::default();
+    for index in 0..passes {
+        image.clear();
+        prepared.render_pass(&Pass { index, seed, lambda: Wavelengths::Rgb }, &mut image);
+        let means = block_means(&image);
+        blocks.iter_mut().zip(&means).for_each(|(s, m)| s.add(*m));
+        picture.add(means.iter().sum::<f64>() / means.len() as f64);
+    }
+    let n = passes as f64;
+    Estimate { name, blocks: blocks.into_iter().map(|s| s.moment(n)).collect(), picture: picture.moment(n) }
+}
+
+/// Few pixels need more photons and smaller kernels than a whole picture would.
+fn settings(name: &str) -> &'static [(&'static str, &'static str)] {
+    match name {
+        "ppm" => &[("photons", "20000"), ("radius", "0.05")],
+        "photonmap" => &[("photons", "20000"), ("final-gather", "1"), ("radius", "0.05")],
+        _ => &[],
+    }
+}
+
+fn block_means(image: &PassImage) -> Vec<f64> {
+    let mut sums = vec![0.0; BLOCKS_A_ROW * BLOCKS_A_ROW * 3];
+    for (i, p) in image.pixels().iter().enumerate() {
+        let (x, y) = (i % SIZE as usize / BLOCK, i / SIZE as usize / BLOCK);
+        for c in 0..3 {
+            sums[(y * BLOCKS_A_ROW + x) * 3 + c] += f64::from(p[c]);
+        }
+    }
+    sums.iter().map(|s| s / (BLOCK * BLOCK) as f64).collect()
+}

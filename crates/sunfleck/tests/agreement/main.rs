@@ -1,0 +1,81 @@
+//! Do the algorithms agree? Each pair that applies to a tiny scene is compared block by block.
+//!
+//! A claim here is statistical: block means of two algorithms differ by less than [`LEVEL`] standard errors (of the spread
+//! of passes) plus the small bias that density estimation is allowed, and the picture's mean by less than 0.3 %.
+mod estimate;
+mod scenes;
+
+use estimate::{Estimate, estimate};
+use scenes::{SCENES, TinyScene};
+
+/// Standard errors that a block may differ by. With about 16,000 comparisons, 5.5 is passed by chance once in a thousand
+/// runs; seeds are fixed, so a run that passes always passes.
+const LEVEL: f64 = 5.5;
+/// Relative bias of a block that a shrinking kernel may still have, at edges and in corners.
+const KERNEL_BIAS: f64 = 0.02;
+/// Relative difference of the means of whole pictures, beyond their standard error.
+const MEAN: f64 = 0.003;
+
+/// How much of a difference an algorithm may have by itself.
+fn bias(name: &str) -> f64 {
+    if matches!(name, "ppm" | "photonmap") { KERNEL_BIAS } else { 0.0 }
+}
+
+fn check(scene: &TinyScene, a: &Estimate, b: &Estimate) -> Result<(), String> {
+    let allowed = bias(a.name).max(bias(b.name));
+    let pair = format!("{}: {} against {}", scene.name, a.name, b.name);
+    for (i, (x, y)) in a.blocks.iter().zip(&b.blocks).enumerate() {
+        let error = (x.variance + y.variance).sqrt();
+        let difference = (x.mean - y.mean).abs();
+        if difference > LEVEL * error + allowed * y.mean.abs() {
+            return Err(format!("{pair}: block {i}: {} and {} differ by {:.1} standard errors", x.mean, y.mean, difference / error));
+        }
+    }
+    let (x, y) = (a.picture(), b.picture());
+    let error = (x.variance + y.variance).sqrt();
+    if (x.mean - y.mean).abs() > 3.0 * error + MEAN * y.mean {
+        return Err(format!("{pair}: means {} and {}, {:.2} %", x.mean, y.mean, 100.0 * (x.mean / y.mean - 1.0)));
+    }
+    Ok(())
+}
+
+fn agree(scene: &TinyScene) {
+    let world = (scene.build)();
+    let estimates: Vec<Estimate> = scene.algorithms.iter().map(|(name, passes)| estimate(&world, name, *passes)).collect();
+    assert!(estimates[0].picture().mean > 0.0, "{}: a black picture proves nothing", scene.name);
+    let mut failures = Vec::new();
+    for (i, a) in estimates.iter().enumerate() {
+        failures.extend(estimates[..i].iter().filter_map(|b| check(scene, a, b).err()));
+    }
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// One test a scene, so that they run in parallel and are named in the report.
+macro_rules! agreement {
+    ($($test:ident),* $(,)?) => {
+        $(#[test]
+        fn $test() {
+            agree(SCENES.iter().find(|s| s.name == stringify!($test)).expect("a scene of that name"));
+        })*
+        #[test]
+        fn every_scene_has_its_test() {
+            let tested = [$(stringify!($test)),*];
+            for s in SCENES {
+                assert!(tested.contains(&s.name), "{} is not tested", s.name);
+            }
+        }
+    };
+}
+
+agreement![
+    diffuse_room,
+    bumped_normals,
+    point_light,
+    two_sided_light,
+    caustic_of_a_glass_ball,
+    mirror_room,
+    instance,
+    thin_lens,
+    mesh_light,
+    sphere_light,
+];

@@ -1,0 +1,189 @@
+//! Tiny scenes, each with one thing that algorithms get wrong.
+use glam::{Affine3A, Quat, Vec2, Vec3};
+use sunfleck::{
+    bsdf::{DielectricMaterial, DiffuseMaterial, MirrorMaterial},
+    camera::{Perspective, View},
+    light::{PointLight, Sides},
+    scene::{MaterialId, Scene, SceneBuilder, SurfaceDef},
+    shape::{Mesh, Parallelogram, Shape, Sphere},
+};
+
+pub(crate) struct TinyScene {
+    pub(crate) name: &'static str,
+    /// Algorithms that reach all its light, and passes enough for each.
+    pub(crate) algorithms: &'static [(&'static str, u64)],
+    pub(crate) build: fn() -> Scene,
+}
+
+/// Every algorithm sees everything.
+const ALL: &[(&str, u64)] = &[("path", 400), ("light", 400), ("ppm", 150)];
+/// Mirrors and glass before the camera: blind for `light`.
+const NOT_LIGHT: &[(&str, u64)] = &[("path", 1600), ("ppm", 150)];
+
+pub(crate) const SCENES: &[TinyScene] = &[
+    TinyScene { name: "diffuse_room", algorithms: ALL, build: diffuse_room },
+    TinyScene { name: "bumped_normals", algorithms: ALL, build: bumped_normals },
+    TinyScene { name: "point_light", algorithms: ALL, build: point_light },
+    TinyScene { name: "two_sided_light", algorithms: ALL, build: two_sided_light },
+    TinyScene { name: "caustic_of_a_glass_ball", algorithms: NOT_LIGHT, build: caustic_of_a_glass_ball },
+    TinyScene { name: "mirror_room", algorithms: NOT_LIGHT, build: mirror_room },
+    TinyScene { name: "instance", algorithms: ALL, build: instance },
+    TinyScene { name: "thin_lens", algorithms: ALL, build: thin_lens },
+    TinyScene { name: "mesh_light", algorithms: ALL, build: mesh_light },
+    TinyScene { name: "sphere_light", algorithms: ALL, build: sphere_light },
+];
+
+/// A room 2 x 2 x 2 around the origin with an open front at z = 1, walls of three colours, and the eye before it.
+fn room() -> SceneBuilder {
+    let mut b = SceneBuilder::new();
+    let [white, red, green] = [Vec3::splat(0.7), Vec3::new(0.6, 0.1, 0.1), Vec3::new(0.1, 0.5, 0.2)].map(|c| diffuse(&mut b, c));
+    let wall = |p: [f32; 3], u: Vec3, v: Vec3| Shape::Parallelogram(Parallelogram { p: Vec3::from(p), u: 2.0 * u, v: 2.0 * v });
+    b.add(wall([-1.0, -1.0, -1.0], Vec3::Z, Vec3::X), white); // floor, facing up
+    b.add(wall([-1.0, 1.0, -1.0], Vec3::X, Vec3::Z), white); // ceiling, facing down
+    b.add(wall([-1.0, -1.0, -1.0], Vec3::X, Vec3::Y), white); // back
+    b.add(wall([-1.0, -1.0, -1.0], Vec3::Y, Vec3::Z), red);
+    b.add(wall([1.0, -1.0, -1.0], Vec3::Z, Vec3::Y), green);
+    b.camera(eye());
+    b
+}
+
+fn eye() -> Perspective {
+    Perspective::new(&View { position: Vec3::new(0.0, 0.0, 3.4), look_at: Vec3::ZERO, up: Vec3::Y }, 42.0, 1.0).unwrap()
+}
+
+fn diffuse(b: &mut SceneBuilder, c: Vec3) -> MaterialId {
+    let reflectance = b.constant(c);
+    b.material(DiffuseMaterial { reflectance })
+}
+
+/// A quad `side` wide that faces down from height `y`.
+fn lamp(side: f32, y: f32) -> Shape {
+    let p = Vec3::new(-0.5 * side, y, -0.5 * side);
+    Shape::Parallelogram(Parallelogram { p, u: side * Vec3::X, v: side * Vec3::Z })
+}
+
+fn emit(b: &mut SceneBuilder, shape: Shape, radiance: Vec3, sides: Sides) {
+    let material = diffuse(b, Vec3::ZERO);
+    b.surface(SurfaceDef { shape, material, emission: Some((radiance, sides)) });
+}
+
+fn glass(b: &mut SceneBuilder) -> MaterialId {
+    let white = b.constant(Vec3::ONE);
+    b.material(DielectricMaterial { eta: 1.5, reflectance: white, transmittance: white })
+}
+
+fn ball(centre: [f32; 3], radius: f32) -> Shape {
+    Shape::Sphere(Sphere { centre: Vec3::from(centre), radius })
+}
+
+fn finish(b: SceneBuilder) -> Scene {
+    b.build().expect("a valid scene")
+}
+
+fn diffuse_room() -> Scene {
+    let mut b = room();
+    let grey = diffuse(&mut b, Vec3::splat(0.4));
+    b.add(ball([0.3, -0.5, 0.0], 0.5), grey);
+    emit(&mut b, lamp(0.8, 0.95), Vec3::new(9.0, 7.0, 5.0), Sides::One);
+    finish(b)
+}
+
+/// A ball of few flat triangles with the normals of a sphere, tilted further: shading and true normals differ much.
+fn bumped_normals() -> Scene {
+    let mut b = room();
+    let grey = diffuse(&mut b, Vec3::splat(0.8));
+    let (mut positions, mut normals, mut indices) = (vec![], vec![], vec![]);
+    let (rows, columns) = (5u32, 8u32);
+    for i in 0..=rows {
+        for j in 0..columns {
+            let (theta, phi) = (std::f32::consts::PI * i as f32 / rows as f32, std::f32::consts::TAU * j as f32 / columns as f32);
+            let n = Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
+            positions.push(Vec3::new(0.0, -0.3, 0.0) + 0.6 * n);
+            normals.push((n + 0.3 * Vec3::new(0.0, (3.0 * phi).sin(), 0.0)).normalize());
+        }
+    }
+    for i in 0..rows {
+        for j in 0..columns {
+            let at = |i: u32, j: u32| i * columns + j % columns;
+            indices.push([at(i, j), at(i + 1, j + 1), at(i + 1, j)]);
+            indices.push([at(i, j), at(i, j + 1), at(i + 1, j + 1)]);
+        }
+    }
+    b.add(Shape::Mesh(Mesh::new(positions, normals, vec![], indices).unwrap()), grey);
+    emit(&mut b, lamp(0.8, 0.95), Vec3::splat(8.0), Sides::One);
+    finish(b)
+}
+
+fn point_light() -> Scene {
+    let mut b = room();
+    let grey = diffuse(&mut b, Vec3::splat(0.6));
+    b.add(ball([-0.3, -0.6, 0.1], 0.4), grey);
+    b.light(PointLight { p: Vec3::new(0.2, 0.5, 0.3), intensity: Vec3::new(1.0, 0.8, 0.6) });
+    finish(b)
+}
+
+fn two_sided_light() -> Scene {
+    let mut b = room();
+    emit(&mut b, lamp(0.7, 0.2), Vec3::splat(4.0), Sides::Two);
+    finish(b)
+}
+
+fn caustic_of_a_glass_ball() -> Scene {
+    let mut b = room();
+    let glass = glass(&mut b);
+    b.add(ball([0.1, -0.4, 0.1], 0.5), glass);
+    emit(&mut b, lamp(1.6, 0.95), Vec3::splat(3.0), Sides::One);
+    finish(b)
+}
+
+fn mirror_room() -> Scene {
+    let mut b = room();
+    let reflect = b.constant(Vec3::new(0.9, 0.8, 0.7));
+    let mirror = b.material(MirrorMaterial { reflect });
+    b.add(ball([-0.3, -0.5, 0.1], 0.5), mirror);
+    emit(&mut b, lamp(1.6, 0.95), Vec3::splat(3.0), Sides::One);
+    finish(b)
+}
+
+/// A patch and a ball placed with rotation and uneven scaling, and a mirrored copy.
+fn instance() -> Scene {
+    let mut b = room();
+    let grey = diffuse(&mut b, Vec3::splat(0.6));
+    let tile = Shape::Parallelogram(Parallelogram { p: Vec3::new(-0.5, 0.0, -0.5), u: Vec3::Z, v: Vec3::X });
+    let object = b.object(vec![
+        SurfaceDef { shape: tile, material: grey, emission: None },
+        SurfaceDef { shape: ball([0.0, 0.3, 0.0], 0.3), material: grey, emission: None },
+    ]);
+    let place = |x: f32, s: Vec3| {
+        Affine3A::from_scale_rotation_translation(s, Quat::from_rotation_z(0.4), Vec3::new(x, -0.6, 0.0))
+    };
+    b.place(object, place(0.4, Vec3::new(1.0, 1.5, 0.7)));
+    b.place(object, place(-0.5, Vec3::new(-0.8, 0.8, 0.8)));
+    emit(&mut b, lamp(0.8, 0.95), Vec3::splat(8.0), Sides::One);
+    finish(b)
+}
+
+fn thin_lens() -> Scene {
+    let mut b = room();
+    let grey = diffuse(&mut b, Vec3::splat(0.4));
+    b.add(ball([0.2, -0.4, 0.5], 0.35), grey);
+    b.camera(eye().with_lens(0.5, 3.0).unwrap());
+    emit(&mut b, lamp(0.8, 0.95), Vec3::splat(8.0), Sides::One);
+    finish(b)
+}
+
+/// Two triangles of unlike size emit, so that picking by area matters.
+fn mesh_light() -> Scene {
+    let mut b = room();
+    let p = vec![Vec3::new(-0.6, 0.9, -0.4), Vec3::new(0.6, 0.8, -0.4), Vec3::new(0.0, 0.9, 0.6), Vec3::new(-0.8, 0.6, 0.2)];
+    let uvs = vec![Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];
+    let mesh = Mesh::new(p, vec![], uvs, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
+    emit(&mut b, Shape::Mesh(mesh), Vec3::new(5.0, 6.0, 7.0), Sides::Two);
+    finish(b)
+}
+
+fn sphere_light() -> Scene {
+    let mut b = room();
+    emit(&mut b, ball([0.2, 0.3, 0.0], 0.25), Vec3::new(6.0, 5.0, 4.0), Sides::One);
+    finish(b)
+}
