@@ -4,19 +4,27 @@
 //! To add one: write `light/<name>.rs` implementing [`Emitter`] and add one word to `lights!` below; the contract tests
 //! run over the whole list.
 mod area;
+mod directional;
+mod environment;
+mod panorama;
 mod point;
+mod spot;
 mod table;
 
 pub use area::{AreaLight, Sides};
+pub use directional::DirectionalLight;
+pub use environment::{EnvironmentError, EnvironmentLight};
 pub use point::PointLight;
+pub use spot::{SpotError, SpotLight};
 pub use table::LightTable;
 
 use crate::{
-    math::{Ray, offset_origin},
+    math::{Frame, Ray, offset_origin, warp::square_to_disk},
     shape::AreaSample,
     spectrum::{Rgb, Spectrum, Wavelengths},
 };
 use glam::{Vec2, Vec3};
+use std::f32::consts::PI;
 
 /// Handle of a light of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -31,6 +39,21 @@ pub struct Surroundings {
     pub radius: f32,
     /// What the lanes mean in this pass.
     pub lambda: Wavelengths,
+}
+
+impl Surroundings {
+    /// Area (m²) of a disk across the sphere: what parallel light falls through on its way into the scene.
+    pub fn disk_area(&self) -> f32 {
+        PI * self.radius * self.radius
+    }
+    /// A ray along the unit direction `d` that starts just outside the sphere, uniform over the disk across `d`.
+    #[inline]
+    pub fn ray_from_outside(&self, d: Vec3, u: Vec2) -> Ray {
+        let across = self.radius * square_to_disk(u);
+        let frame = Frame::from_normal(d);
+        let o = self.centre + across.x * frame.s + across.y * frame.t - 1.001 * self.radius * d;
+        Ray { o, d, tmin: 0.0, tmax: f32::INFINITY }
+    }
 }
 
 /// Where a connection to a light ends; what a shadow ray needs to know.
@@ -166,7 +189,13 @@ macro_rules! lights {
     };
 }
 
-lights![Area(AreaLight), Point(PointLight)];
+lights![
+    Area(AreaLight),
+    Point(PointLight),
+    Spot(SpotLight),
+    Directional(DirectionalLight),
+    Environment(EnvironmentLight),
+];
 
 impl AreaSample {
     /// A ray from this point in direction `d`, starting off the surface.

@@ -58,8 +58,8 @@ impl Sphere {
     /// 1 − cos of the half-angle under which the sphere is seen.
     fn cone(&self, to_centre: Vec3) -> Option<f32> {
         let sin2 = self.radius * self.radius / to_centre.length_squared();
-        // Very near the surface the cone is a hemisphere of which little is useful: area sampling serves as well.
-        (sin2 < 0.9999).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
+        // Closer than that, rounding leaves no direction to aim at.
+        (sin2 < 0.999_99).then(|| sin2 / (1.0 + (1.0 - sin2).sqrt()))
     }
     pub(super) fn transformed(&self, m: &Affine3A) -> Option<Self> {
         let (x, y, z) = (Vec3::from(m.matrix3.x_axis), Vec3::from(m.matrix3.y_axis), Vec3::from(m.matrix3.z_axis));

@@ -10,6 +10,8 @@ pub enum Wrap {
     Repeat,
     /// The nearest edge pixel.
     Clamp,
+    /// The picture and its mirror image in turn, as glTF's `MIRRORED_REPEAT`.
+    Mirror,
 }
 
 /// Linear RGB pixels; `v = 0` is the bottom edge, as in OBJ files, and rows are stored from the top.
@@ -18,7 +20,8 @@ pub struct ImageTexture {
     width: usize,
     height: usize,
     pixels: Vec<Rgb>,
-    wrap: Wrap,
+    /// Across, then down.
+    wrap: [Wrap; 2],
 }
 
 impl ImageTexture {
@@ -28,8 +31,12 @@ impl ImageTexture {
             width,
             height,
             pixels,
-            wrap,
+            wrap: [wrap; 2],
         })
+    }
+    /// Continues the picture differently across and down.
+    pub fn with_wrap(self, across: Wrap, down: Wrap) -> Self {
+        Self { wrap: [across, down], ..self }
     }
     /// Width in pixels.
     pub fn width(&self) -> usize {
@@ -55,18 +62,26 @@ impl ImageTexture {
         let cell = p.floor();
         let f = p - cell;
         let at = |dx: i64, dy: i64| -> Vec3 {
-            let x = self.index(cell.x as i64 + dx, self.width);
-            let y = self.index(cell.y as i64 + dy, self.height);
+            let x = self.wrap[0].index(cell.x as i64 + dx, self.width);
+            let y = self.wrap[1].index(cell.y as i64 + dy, self.height);
             self.pixels[y * self.width + x]
         };
         at(0, 0).lerp(at(1, 0), f.x).lerp(at(0, 1).lerp(at(1, 1), f.x), f.y)
     }
+}
+
+impl Wrap {
+    /// The pixel that stands at `i` of an axis of `n` pixels.
     #[inline]
-    fn index(&self, i: i64, n: usize) -> usize {
+    fn index(self, i: i64, n: usize) -> usize {
         let n = n as i64;
-        (match self.wrap {
-            Wrap::Repeat => i.rem_euclid(n),
-            Wrap::Clamp => i.clamp(0, n - 1),
+        (match self {
+            Self::Repeat => i.rem_euclid(n),
+            Self::Clamp => i.clamp(0, n - 1),
+            Self::Mirror => {
+                let i = i.rem_euclid(2 * n);
+                i.min(2 * n - 1 - i)
+            }
         }) as usize
     }
 }
@@ -87,6 +102,19 @@ mod tests {
         {
             assert!((t.eval(Vec2::new(uv.0, uv.1)).x - want).abs() < 1e-6, "{uv:?}");
         }
+    }
+
+    #[test]
+    fn mirrored_pictures_meet_without_a_seam_and_axes_wrap_on_their_own() {
+        let t = two_by_two(Wrap::Mirror);
+        for u in [0.0f32, 0.1, 0.37, 0.8, 1.0] {
+            let at = |x: f32, y: f32| t.eval(Vec2::new(x, y)).x;
+            assert!((at(u, 0.3) - at(-u, 0.3)).abs() < 1e-5 && (at(u, 0.3) - at(2.0 - u, 0.3)).abs() < 1e-5);
+            assert!((at(0.3, u) - at(0.3, 4.0 - u)).abs() < 1e-5);
+        }
+        let t = t.with_wrap(Wrap::Repeat, Wrap::Clamp);
+        assert!((t.eval(Vec2::new(0.0, 0.75)).x - 0.5).abs() < 1e-6);
+        assert!((t.eval(Vec2::new(0.25, 7.0)).x).abs() < 1e-6);
     }
 
     #[test]

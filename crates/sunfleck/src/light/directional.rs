@@ -1,0 +1,64 @@
+//! Light from infinitely far away in one direction: the sun without its disk.
+use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
+use crate::spectrum::{Rgb, Spectrum, Wavelengths};
+use glam::{Vec2, Vec3};
+
+/// A distant light.
+#[derive(Clone, Copy, Debug)]
+pub struct DirectionalLight {
+    /// Unit direction in which the light travels.
+    direction: Vec3,
+    irradiance: Rgb,
+}
+
+impl DirectionalLight {
+    /// Light that travels along `direction` (of any length) and brings `irradiance` (W/m²) to a surface facing it.
+    /// `None` if the direction is zero or not finite.
+    pub fn new(direction: Vec3, irradiance: Rgb) -> Option<Self> {
+        Some(Self { direction: direction.try_normalize()?, irradiance })
+    }
+}
+
+impl Emitter for DirectionalLight {
+    fn name(&self) -> &'static str {
+        "directional"
+    }
+    /// E·πR².
+    fn power(&self, around: &Surroundings) -> Rgb {
+        self.irradiance * around.disk_area()
+    }
+    #[inline]
+    fn sample_li(&self, _: Vec3, _: Vec2, around: &Surroundings) -> Option<LiSample> {
+        let li = Spectrum::from_rgb(self.irradiance, around.lambda);
+        Some(LiSample { wi: -self.direction, li, pdf: 1.0, delta: true, end: LightEnd::Infinite })
+    }
+    fn pdf_li(&self, _: Vec3, _: Vec3, _: Option<&EmitterHit>) -> f32 {
+        0.0
+    }
+    #[inline]
+    fn sample_le(&self, u_area: Vec2, _: Vec2, around: &Surroundings) -> Option<LeSample> {
+        Some(LeSample {
+            ray: around.ray_from_outside(self.direction, u_area),
+            le: Spectrum::from_rgb(self.irradiance, around.lambda),
+            pdf_area: 1.0 / around.disk_area(),
+            pdf_dir: 1.0,
+            cos: 1.0,
+        })
+    }
+    fn pdf_le(&self, _: Option<&EmitterHit>, _: Vec3, _: &Surroundings) -> (f32, f32) {
+        (0.0, 0.0)
+    }
+    fn le(&self, _: &EmitterHit, _: Vec3, _: Wavelengths) -> Spectrum {
+        Spectrum::BLACK
+    }
+    fn le_escaped(&self, _: Vec3, _: Wavelengths) -> Spectrum {
+        Spectrum::BLACK
+    }
+    /// No ray meets a single direction, not even one that leaves the scene.
+    fn is_infinite(&self) -> bool {
+        false
+    }
+    fn is_delta(&self) -> bool {
+        true
+    }
+}

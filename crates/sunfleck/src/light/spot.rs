@@ -1,0 +1,185 @@
+//! A light without extent that shines into a cone with a soft edge.
+use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
+use crate::{
+    math::{Frame, Local, Ray},
+    spectrum::{Rgb, Spectrum, Wavelengths},
+};
+use glam::{Vec2, Vec3};
+use std::f32::consts::{PI, TAU};
+
+/// A spot light.
+///
+/// Full intensity up to the half-angle `hot_spot` from the axis and none beyond `fall_out`; in between it falls by
+/// `s²(3 − 2s)`, where s runs from 0 to 1 linearly in the *cosine* of the angle (Pharr, Jakob & Humphreys 2023, section
+/// 12.1.1, have the same).
+#[derive(Clone, Copy, Debug)]
+pub struct SpotLight {
+    p: Vec3,
+    axis: Frame,
+    intensity: Rgb,
+    /// 1 − cos of `hot_spot` and of `fall_out`: exact for narrow beams too.
+    hot: f32,
+    out: f32,
+}
+
+/// Why numbers do not make a spot light.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SpotError {
+    /// A zero or non-finite direction.
+    #[error("a spot light cannot shine along {0}")]
+    Direction(Vec3),
+    /// Angles out of range or in the wrong order.
+    #[error(
+        "a spot light's angles are {hot_spot} and {fall_out}, but must be 0 <= hot spot <= fall-out <= pi, fall-out > 0"
+    )]
+    Angles {
+        /// Half-angle of full intensity, radians.
+        hot_spot: f32,
+        /// Half-angle of no intensity, radians.
+        fall_out: f32,
+    },
+}
+
+/// `1 − cos a` without cancellation.
+fn versine(a: f32) -> f32 {
+    let s = (0.5 * a).sin();
+    2.0 * s * s
+}
+
+impl SpotLight {
+    /// A light at `p` that shines along `direction` (of any length) with `intensity` (W/sr) on the axis; half-angles in
+    /// radians.
+    ///
+    /// # Errors
+    /// A zero direction, or angles that are not `0 <= hot_spot <= fall_out <= π` with `fall_out > 0`.
+    pub fn new(p: Vec3, direction: Vec3, intensity: Rgb, [hot_spot, fall_out]: [f32; 2]) -> Result<Self, SpotError> {
+        let axis = direction.try_normalize().ok_or(SpotError::Direction(direction))?;
+        // Angles given in degrees and converted may pass π by a rounding.
+        let in_order = 0.0 <= hot_spot && hot_spot <= fall_out && 0.0 < fall_out && fall_out <= 1.000_001 * PI;
+        if !in_order {
+            return Err(SpotError::Angles { hot_spot, fall_out });
+        }
+        Ok(Self { p, axis: Frame::from_normal(axis), intensity, hot: versine(hot_spot), out: versine(fall_out) })
+    }
+    /// Share of the intensity that leaves in the unit direction `d`.
+    #[inline]
+    fn falloff(&self, d: Vec3) -> f32 {
+        let v = 0.5 * d.distance_squared(self.axis.n);
+        if v <= self.hot {
+            return 1.0;
+        }
+        if v >= self.out {
+            return 0.0;
+        }
+        let s = (self.out - v) / (self.out - self.hot);
+        s * s * (3.0 - 2.0 * s)
+    }
+    /// Integral of [`SpotLight::falloff`] over directions (sr): the inner cone's solid angle and half of the rim's.
+    fn solid_angle(&self) -> f32 {
+        TAU * 0.5 * (self.hot + self.out)
+    }
+    /// `1 − cos` of the angle of a direction drawn in proportion to the falloff.
+    #[inline]
+    fn sample_versine(&self, u: f32) -> f32 {
+        let inner = 2.0 * self.hot / (self.hot + self.out);
+        if u < inner {
+            self.hot * (u / inner)
+        } else {
+            self.out - (self.out - self.hot) * sample_smoothstep((u - inner) / (1.0 - inner))
+        }
+    }
+}
+
+/// Inverts `2s³ − s⁴`, the distribution of the density `2s²(3 − 2s)` on [0, 1].
+fn sample_smoothstep(u: f32) -> f32 {
+    // The distribution is convex and at least s³: Newton's method started at the cube root comes down on the root.
+    let mut s = u.cbrt();
+    for _ in 0..5 {
+        let slope = s * s * (6.0 - 4.0 * s);
+        if slope <= 0.0 {
+            break;
+        }
+        s = (s - (s * s * s * (2.0 - s) - u) / slope).clamp(0.0, 1.0);
+    }
+    s
+}
+
+impl Emitter for SpotLight {
+    fn name(&self) -> &'static str {
+        "spot"
+    }
+    /// 2πI(1 − (cos hot + cos out)/2): the falloff is antisymmetric about its middle.
+    fn power(&self, _: &Surroundings) -> Rgb {
+        self.intensity * self.solid_angle()
+    }
+    #[inline]
+    fn sample_li(&self, from: Vec3, _: Vec2, around: &Surroundings) -> Option<LiSample> {
+        let to = self.p - from;
+        let wi = to.try_normalize()?;
+        let falloff = self.falloff(-wi);
+        (falloff > 0.0).then(|| LiSample {
+            wi,
+            li: Spectrum::from_rgb(self.intensity, around.lambda) * (falloff / to.length_squared()),
+            pdf: 1.0,
+            delta: true,
+            end: LightEnd::Point(self.p),
+        })
+    }
+    fn pdf_li(&self, _: Vec3, _: Vec3, _: Option<&EmitterHit>) -> f32 {
+        0.0
+    }
+    #[inline]
+    fn sample_le(&self, _: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample> {
+        let v = self.sample_versine(u_dir.x);
+        let sin = (v * (2.0 - v)).max(0.0).sqrt();
+        let (sin_phi, cos_phi) = (TAU * u_dir.y).sin_cos();
+        let d = self.axis.to_world(Local(Vec3::new(sin * cos_phi, sin * sin_phi, 1.0 - v)));
+        let falloff = self.falloff(d);
+        (falloff > 0.0).then(|| LeSample {
+            ray: Ray { o: self.p, d, tmin: 0.0, tmax: f32::INFINITY },
+            le: Spectrum::from_rgb(self.intensity, around.lambda) * falloff,
+            pdf_area: 1.0,
+            pdf_dir: falloff / self.solid_angle(),
+            cos: 1.0,
+        })
+    }
+    fn pdf_le(&self, _: Option<&EmitterHit>, _: Vec3, _: &Surroundings) -> (f32, f32) {
+        (0.0, 0.0)
+    }
+    fn le(&self, _: &EmitterHit, _: Vec3, _: Wavelengths) -> Spectrum {
+        Spectrum::BLACK
+    }
+    fn le_escaped(&self, _: Vec3, _: Wavelengths) -> Spectrum {
+        Spectrum::BLACK
+    }
+    fn is_infinite(&self) -> bool {
+        false
+    }
+    fn is_delta(&self) -> bool {
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rim_is_inverted_to_float_precision() {
+        for i in 0..=1000u16 {
+            let u = f32::from(i) / 1000.0;
+            let s = f64::from(sample_smoothstep(u));
+            assert!((s * s * s * (2.0 - s) - f64::from(u)).abs() < 3e-7, "{u}");
+        }
+    }
+
+    #[test]
+    fn nonsense_is_refused() {
+        let spot = |d, angles| SpotLight::new(Vec3::ZERO, d, Rgb::ONE, angles);
+        assert_eq!(spot(Vec3::ZERO, [0.1, 0.2]).unwrap_err(), SpotError::Direction(Vec3::ZERO));
+        for angles in [[0.3, 0.2], [-0.1, 0.2], [0.0, 0.0], [0.1, 3.2], [f32::NAN, 1.0], [0.0, f32::NAN]] {
+            assert!(matches!(spot(Vec3::Z, angles), Err(SpotError::Angles { .. })), "{angles:?}");
+        }
+        assert!(spot(Vec3::Z, [0.5, 0.5]).is_ok() && spot(Vec3::Z, [PI, PI]).is_ok());
+    }
+}
