@@ -5,12 +5,14 @@
 mod light;
 mod params;
 mod path;
+mod photonmap;
 mod ppm;
 mod raycast;
 
 pub use light::LightTracer;
 pub use params::{ParamError, ParamInfo, Params};
 pub use path::PathTracer;
+pub use photonmap::PhotonMapper;
 pub use ppm::{Direct, Ppm};
 pub use raycast::RayCast;
 
@@ -55,7 +57,7 @@ pub struct Entry {
 }
 
 /// Every algorithm.
-pub const REGISTRY: &[Entry] = &[raycast::ENTRY, path::ENTRY, light::ENTRY, ppm::ENTRY];
+pub const REGISTRY: &[Entry] = &[raycast::ENTRY, path::ENTRY, light::ENTRY, photonmap::ENTRY, ppm::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -33,21 +33,41 @@ impl RadiusMap {
     }
 }
 
+/// Photons asked for [`NearestMap::spacing`]: the median to about 5 %.
+const SPACING_SAMPLES: usize = 256;
+
 /// Finds the photons nearest to a place.
 pub struct NearestMap {
     tree: KdTree,
+    positions: Vec<Vec3>,
     photons: Vec<Photon>,
 }
 
 impl NearestMap {
     /// Indexes a catch.
     pub fn new(catch: Catch) -> Self {
-        Self { tree: KdTree::build(&catch.positions), photons: catch.photons }
+        Self { tree: KdTree::build(&catch.positions), positions: catch.positions, photons: catch.photons }
     }
     /// Fills `out` with the up to `k` photons nearest to `p` among those within `r_max`, nearest first.
     #[inline]
     pub fn nearest(&self, p: Vec3, k: usize, r_max: f32, out: &mut Neighbours) {
         self.tree.nearest(p, k, r_max, out);
+    }
+    /// The median distance from a photon to the `k`-th nearest (itself counted; to the farthest if there are fewer), over
+    /// an even choice of photons. `None` without photons, or where most of them coincide.
+    pub fn spacing(&self, k: usize) -> Option<f32> {
+        let step = self.positions.len().div_ceil(SPACING_SAMPLES).max(1);
+        let mut distances: Vec<f32> = self
+            .positions
+            .par_iter()
+            .step_by(step)
+            .map_init(Neighbours::new, |found, &p| {
+                self.nearest(p, k, f32::MAX, found);
+                found.farthest().map_or(0.0, |(_, d2)| d2.sqrt())
+            })
+            .collect();
+        distances.sort_by(f32::total_cmp);
+        distances.get(distances.len() / 2).copied().filter(|d| *d > 0.0)
     }
     /// The photon that an answer of [`NearestMap::nearest`] calls `index`.
     #[inline]

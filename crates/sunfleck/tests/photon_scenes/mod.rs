@@ -1,0 +1,136 @@
+//! Small scenes and measurements shared by the tests of photons and of the algorithms that use them.
+#![allow(unreachable_pub, reason = "a module of tests, of which each file uses a part")]
+#![allow(dead_code, reason = "as above")]
+use glam::Vec3;
+use std::ops::ControlFlow;
+use sunfleck::{
+    bsdf::{DielectricMaterial, DiffuseMaterial},
+    camera::{Perspective, View},
+    film::{Film, FilmSpec, Filter},
+    integrator::{Integrator, Params, find},
+    light::Sides,
+    render::{Budget, Settings, render},
+    scene::{MaterialId, Scene, SceneBuilder, SurfaceDef},
+    shape::{Parallelogram, Shape, Sphere},
+    spectrum::Rgb,
+};
+
+/// A square picture.
+pub fn spec(size: u32) -> FilmSpec {
+    FilmSpec { width: size, height: size, filter: Filter::Box }
+}
+
+/// The algorithm `name` with settings given as `"key=value key=value"`.
+pub fn make(name: &str, settings: &str) -> Box<dyn Integrator> {
+    let mut p = Params::default();
+    for word in settings.split_whitespace() {
+        let (k, v) = word.split_once('=').expect("key=value");
+        p.set(k, v);
+    }
+    find(name).expect("an algorithm").build(p).unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Renders `passes` passes.
+pub fn shoot(scene: &Scene, integrator: &dyn Integrator, spec: FilmSpec, passes: u64) -> Film {
+    let budget = Budget { passes: Some(passes), time: None };
+    render(scene, integrator, &Settings { spec, seed: 1, budget }, |_, _| ControlFlow::Continue(()))
+}
+
+/// Mean over the picture.
+pub fn mean(film: &Film) -> Rgb {
+    let pixels = film.mean();
+    (pixels.iter().map(|p| p.as_dvec3()).sum::<glam::DVec3>() / pixels.len() as f64).as_vec3()
+}
+
+/// A perspective camera of square pictures.
+pub fn eye(position: Vec3, look_at: Vec3, fov: f32) -> Perspective {
+    Perspective::new(&View { position, look_at, up: Vec3::Y }, fov, 1.0).expect("a camera")
+}
+
+/// A matt material.
+pub fn matt(b: &mut SceneBuilder, colour: Rgb) -> MaterialId {
+    let reflectance = b.constant(colour);
+    b.material(DiffuseMaterial { reflectance })
+}
+
+/// Clear glass of index `eta`.
+pub fn glass(b: &mut SceneBuilder, eta: f32) -> MaterialId {
+    let white = b.constant(Rgb::ONE);
+    b.material(DielectricMaterial { eta, reflectance: white, transmittance: white })
+}
+
+/// A patch whose outer side is that of `u × v`.
+pub fn patch(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> Shape {
+    Shape::Parallelogram(Parallelogram { p: p.into(), u: u.into(), v: v.into() })
+}
+
+/// A sphere.
+pub fn ball(centre: [f32; 3], radius: f32) -> Shape {
+    Shape::Sphere(Sphere { centre: centre.into(), radius })
+}
+
+/// The six sides of the cube [−1, 1]³, outer side inward.
+pub fn walls() -> [Shape; 6] {
+    [
+        patch([-1.0, -1.0, -1.0], [0.0, 0.0, 2.0], [2.0, 0.0, 0.0]),
+        patch([-1.0, 1.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0]),
+        patch([-1.0, -1.0, -1.0], [0.0, 2.0, 0.0], [0.0, 0.0, 2.0]),
+        patch([1.0, -1.0, -1.0], [0.0, 0.0, 2.0], [0.0, 2.0, 0.0]),
+        patch([-1.0, -1.0, -1.0], [2.0, 0.0, 0.0], [0.0, 2.0, 0.0]),
+        patch([-1.0, -1.0, 1.0], [0.0, 2.0, 0.0], [2.0, 0.0, 0.0]),
+    ]
+}
+
+/// A closed room [−1, 1]³ with a lamp of `size` below its ceiling; the camera stands inside. Red and green side walls.
+pub fn room(lamp: Rgb, size: f32) -> SceneBuilder {
+    let mut b = SceneBuilder::new();
+    let white = matt(&mut b, Rgb::new(0.7, 0.7, 0.7));
+    let red = matt(&mut b, Rgb::new(0.6, 0.07, 0.05));
+    let green = matt(&mut b, Rgb::new(0.14, 0.45, 0.09));
+    for (shape, material) in walls().into_iter().zip([white, white, red, green, white, white]) {
+        b.add(shape, material);
+    }
+    let black = matt(&mut b, Rgb::ZERO);
+    let h = 0.5 * size;
+    let shape = patch([-h, 0.98, -h], [size, 0.0, 0.0], [0.0, 0.0, size]);
+    b.surface(SurfaceDef { shape, material: black, emission: Some((lamp, Sides::One)) });
+    b.camera(eye(Vec3::new(0.0, 0.0, -0.95), Vec3::new(0.0, -0.1, 1.0), 90.0));
+    b
+}
+
+/// [`room`] with a matt ball in it.
+pub fn small_cornell() -> Scene {
+    let mut b = room(Rgb::new(10.0, 8.0, 6.0), 0.6);
+    let white = matt(&mut b, Rgb::new(0.7, 0.6, 0.5));
+    b.add(ball([0.3, -0.6, 0.3], 0.4), white);
+    b.build().expect("a scene")
+}
+
+/// [`room`] with a glass ball under a large lamp, which a path tracer can still hit through the glass.
+pub fn caustic() -> Scene {
+    let mut b = room(Rgb::splat(4.0), 1.2);
+    let glass = glass(&mut b, 1.5);
+    b.add(ball([0.1, -0.3, 0.2], 0.4), glass);
+    b.build().expect("a scene")
+}
+
+/// The inside of a sphere that emits `le` and reflects `albedo`, seen from off its centre.
+pub fn furnace_ball(le: Rgb, albedo: Rgb) -> Scene {
+    let mut b = SceneBuilder::new();
+    let grey = matt(&mut b, albedo);
+    // Both sides emit, of which only the inner one can be seen.
+    b.surface(SurfaceDef { shape: ball([0.0; 3], 1.0), material: grey, emission: Some((le, Sides::Two)) });
+    b.camera(eye(Vec3::new(0.3, 0.1, -0.2), Vec3::Z, 60.0));
+    b.build().expect("a scene")
+}
+
+/// The inside of a cube whose walls emit `le` and reflect `albedo`.
+pub fn furnace_box(le: Rgb, albedo: Rgb) -> Scene {
+    let mut b = SceneBuilder::new();
+    let grey = matt(&mut b, albedo);
+    for shape in walls() {
+        b.surface(SurfaceDef { shape, material: grey, emission: Some((le, Sides::One)) });
+    }
+    b.camera(eye(Vec3::new(0.3, 0.1, -0.9), Vec3::Z, 80.0));
+    b.build().expect("a scene")
+}
