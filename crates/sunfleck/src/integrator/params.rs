@@ -43,7 +43,7 @@ pub enum ParamError {
 }
 
 /// Settings common to all algorithms.
-pub(super) const COMMON: [ParamInfo; 2] = [
+const COMMON: [ParamInfo; 2] = [
     ParamInfo {
         name: "scatterings",
         about: "scatterings on a path from light to eye at most, 0 to 10000 (default 64)",
@@ -53,6 +53,13 @@ pub(super) const COMMON: [ParamInfo; 2] = [
         about: "scatterings before Russian roulette on camera paths, 0 to 10000 (default 3)",
     },
 ];
+
+impl Entry {
+    /// All settings it takes: its own, then those common to all algorithms.
+    pub fn settings(&self) -> impl Iterator<Item = &'static ParamInfo> {
+        self.params.iter().chain(&COMMON)
+    }
+}
 
 impl Params {
     /// Sets `name` to `value`, replacing an earlier one.
@@ -117,7 +124,7 @@ impl Params {
         match self.0.into_keys().next() {
             None => Ok(()),
             Some(name) => {
-                let known = COMMON.iter().chain(entry.params).map(|p| p.name).collect();
+                let known = entry.settings().map(|p| p.name).collect();
                 Err(ParamError::Unknown { name, integrator: entry.name, known })
             }
         }
