@@ -86,7 +86,7 @@ fn an_infinite_radius_finds_every_finite_point() {
         let grid = PointGrid::build(&set.points, set.scale);
         assert_eq!(found(&grid, Vec3::ZERO, f32::INFINITY).len(), grid.len(), "{}", set.name);
         assert_eq!(grid.len(), set.points.iter().filter(|p| p.is_finite()).count());
-        assert_eq!(grid.is_empty(), grid.len() == 0);
+        assert_eq!(grid.is_empty(), set.points.iter().all(|p| !p.is_finite()));
     }
 }
 
@@ -129,7 +129,7 @@ fn a_million_identical_points_are_no_trouble() {
     grid.within(Vec3::splat(0.1), 0.0, |_, _| count += 1);
     grid.within(Vec3::ZERO, 0.01, |_, _| count += 1);
     assert_eq!(count, 1_000_000);
-    assert!(start.elapsed() < Duration::from_secs(5));
+    assert!(start.elapsed() < Duration::from_secs(20));
 }
 
 #[test]
@@ -143,7 +143,7 @@ fn a_radius_of_many_cells_does_not_walk_them_all() {
         grid.within(*p, 4e6, |_, _| count += 1);
     }
     assert_eq!(count, 1_000_000);
-    assert!(start.elapsed() < Duration::from_secs(5));
+    assert!(start.elapsed() < Duration::from_secs(20));
 }
 
 #[test]

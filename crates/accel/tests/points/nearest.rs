@@ -61,7 +61,7 @@ fn of_a_million_identical_points_the_lowest_indices_are_nearest() {
         let indices = found(&tree, p, 100, 1.0);
         assert!(indices.iter().map(|&(_, i)| i).eq(0..100));
     }
-    assert!(start.elapsed() < Duration::from_secs(5));
+    assert!(start.elapsed() < Duration::from_secs(20));
 }
 
 #[test]
@@ -74,7 +74,7 @@ fn a_dense_spot_far_inside_a_large_scene_is_still_split() {
     for p in &points[..20_000] {
         assert_eq!(found(&tree, *p, 1, 1.0)[0].0, 0.0);
     }
-    assert!(start.elapsed() < Duration::from_secs(5));
+    assert!(start.elapsed() < Duration::from_secs(20));
 }
 
 #[test]

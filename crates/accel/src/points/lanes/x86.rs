@@ -1,6 +1,14 @@
 //! Lanes in AVX2 and AVX-512.
+//!
+//! No closure may hold an intrinsic: it would be compiled without the features, and each intrinsic become a call.
 
-use std::arch::x86_64::*;
+use std::arch::x86_64::{
+    __m256, __m512, _CMP_LE_OQ, _mm_loadu_ps, _mm_set1_ps, _mm256_add_ps, _mm256_broadcast_ps, _mm256_cmp_ps,
+    _mm256_loadu_ps, _mm256_max_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_set_m128, _mm256_set1_ps,
+    _mm256_setzero_ps, _mm256_storeu_ps, _mm256_sub_ps, _mm512_add_ps, _mm512_broadcast_f32x4, _mm512_castps128_ps512,
+    _mm512_cmp_ps_mask, _mm512_loadu_ps, _mm512_max_ps, _mm512_mul_ps, _mm512_permutexvar_ps, _mm512_set1_ps,
+    _mm512_setr_epi32, _mm512_setzero_ps, _mm512_storeu_ps, _mm512_sub_ps,
+};
 
 use glam::Vec3;
 
@@ -62,8 +70,9 @@ impl Lanes for Avx2 {
         for half in [0, 8] {
             // SAFETY: `self` proves the features; `half + 8` is within the sixteen values of each row.
             mask |= unsafe {
-                let [dx, dy, dz] =
-                    [0, 1, 2].map(|a| _mm256_sub_ps(_mm256_set1_ps(p[a]), _mm256_loadu_ps(at[a].as_ptr().add(half))));
+                let dx = _mm256_sub_ps(_mm256_set1_ps(p.x), _mm256_loadu_ps(at[0].as_ptr().add(half)));
+                let dy = _mm256_sub_ps(_mm256_set1_ps(p.y), _mm256_loadu_ps(at[1].as_ptr().add(half)));
+                let dz = _mm256_sub_ps(_mm256_set1_ps(p.z), _mm256_loadu_ps(at[2].as_ptr().add(half)));
                 norm256(dx, dy, dz, bound, d2, half)
             };
         }
@@ -76,12 +85,9 @@ impl Lanes for Avx2 {
         for half in [0, 8] {
             // SAFETY: `self` proves the features; `half + 8` is within the sixteen values of each row.
             mask |= unsafe {
-                let [dx, dy, dz] = [0, 1, 2].map(|a| {
-                    let p = _mm256_set1_ps(p[a]);
-                    let below = _mm256_sub_ps(_mm256_loadu_ps(lo[a].as_ptr().add(half)), p);
-                    let above = _mm256_sub_ps(p, _mm256_loadu_ps(hi[a].as_ptr().add(half)));
-                    _mm256_max_ps(_mm256_max_ps(below, above), _mm256_setzero_ps())
-                });
+                let dx = gap256(lo[0], hi[0], p.x, half);
+                let dy = gap256(lo[1], hi[1], p.y, half);
+                let dz = gap256(lo[2], hi[2], p.z, half);
                 norm256(dx, dy, dz, bound, d2, half)
             };
         }
@@ -108,6 +114,21 @@ impl Lanes for Avx2 {
     }
 }
 
+/// Distances from `p` to the intervals `lo..hi` of the lanes from `half`.
+///
+/// # Safety
+/// The processor has AVX; `half` is at most 8.
+#[inline(always)]
+unsafe fn gap256(lo: &Row, hi: &Row, p: f32, half: usize) -> __m256 {
+    // SAFETY: the caller's promises.
+    unsafe {
+        let p = _mm256_set1_ps(p);
+        let below = _mm256_sub_ps(_mm256_loadu_ps(lo.as_ptr().add(half)), p);
+        let above = _mm256_sub_ps(p, _mm256_loadu_ps(hi.as_ptr().add(half)));
+        _mm256_max_ps(_mm256_max_ps(below, above), _mm256_setzero_ps())
+    }
+}
+
 /// Stores the squared length of eight vectors at `d2[half..]`; returns which are at most `bound`, shifted by `half`.
 ///
 /// # Safety
@@ -128,7 +149,9 @@ impl Lanes for Avx512 {
     fn points(self, at: Rows, p: Vec3, bound: f32, d2: &mut Row) -> u32 {
         // SAFETY: `self` proves the features; each row has sixteen values.
         unsafe {
-            let [dx, dy, dz] = [0, 1, 2].map(|a| _mm512_sub_ps(_mm512_set1_ps(p[a]), _mm512_loadu_ps(at[a].as_ptr())));
+            let dx = _mm512_sub_ps(_mm512_set1_ps(p.x), _mm512_loadu_ps(at[0].as_ptr()));
+            let dy = _mm512_sub_ps(_mm512_set1_ps(p.y), _mm512_loadu_ps(at[1].as_ptr()));
+            let dz = _mm512_sub_ps(_mm512_set1_ps(p.z), _mm512_loadu_ps(at[2].as_ptr()));
             norm512(dx, dy, dz, bound, d2)
         }
     }
@@ -136,15 +159,7 @@ impl Lanes for Avx512 {
     #[inline(always)]
     fn boxes(self, lo: Rows, hi: Rows, p: Vec3, bound: f32, d2: &mut Row) -> u32 {
         // SAFETY: `self` proves the features; each row has sixteen values.
-        unsafe {
-            let [dx, dy, dz] = [0, 1, 2].map(|a| {
-                let p = _mm512_set1_ps(p[a]);
-                let below = _mm512_sub_ps(_mm512_loadu_ps(lo[a].as_ptr()), p);
-                let above = _mm512_sub_ps(p, _mm512_loadu_ps(hi[a].as_ptr()));
-                _mm512_max_ps(_mm512_max_ps(below, above), _mm512_setzero_ps())
-            });
-            norm512(dx, dy, dz, bound, d2)
-        }
+        unsafe { norm512(gap512(lo[0], hi[0], p.x), gap512(lo[1], hi[1], p.y), gap512(lo[2], hi[2], p.z), bound, d2) }
     }
 
     #[inline(always)]
@@ -163,6 +178,21 @@ impl Lanes for Avx512 {
             }
         }
         cells
+    }
+}
+
+/// Distances from `p` to the intervals `lo..hi`.
+///
+/// # Safety
+/// The processor has AVX-512 F.
+#[inline(always)]
+unsafe fn gap512(lo: &Row, hi: &Row, p: f32) -> __m512 {
+    // SAFETY: the caller's promise; each row has sixteen values.
+    unsafe {
+        let p = _mm512_set1_ps(p);
+        let below = _mm512_sub_ps(_mm512_loadu_ps(lo.as_ptr()), p);
+        let above = _mm512_sub_ps(p, _mm512_loadu_ps(hi.as_ptr()));
+        _mm512_max_ps(_mm512_max_ps(below, above), _mm512_setzero_ps())
     }
 }
 

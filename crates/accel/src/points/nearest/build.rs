@@ -1,13 +1,20 @@
-//! Sorting points along the curve, and bounding what is next to each other on it.
+//! Splitting points at medians, and bounding what ends up together.
 
-use glam::{DVec3, Vec3};
+use glam::Vec3;
 use rayon::prelude::*;
 
 use super::{KdTree, Leaf, Level, Node};
 use crate::points::lanes::{Isa, LANES};
 
-/// Bits of a place on the curve per axis.
-const BITS: u32 = 10;
+/// Halves longer than this are worth a task of their own.
+const PARALLEL: usize = 1 << 12;
+
+/// A point and its place in the input.
+#[derive(Clone, Copy)]
+struct Item {
+    p: Vec3,
+    index: u32,
+}
 
 /// Bounds of an element of the tree, and the lowest index of its points.
 #[derive(Clone, Copy)]
@@ -18,10 +25,15 @@ struct Bound {
 }
 
 pub(super) fn build(points: &[Vec3]) -> KdTree {
-    let mut items: Vec<u64> = (0..points.len() as u64).filter(|&i| points[i as usize].is_finite()).collect();
-    sort(points, &mut items);
-    let leaves: Vec<Leaf> = items.par_chunks(LANES).map(|items| Leaf::new(points, items)).collect();
-    let mut bounds: Vec<Bound> = items.par_chunks(LANES).map(|items| Bound::of_points(points, items)).collect();
+    let numbered = points.iter().zip(0..).filter(|(p, _)| p.is_finite());
+    let mut items: Vec<Item> = numbered.map(|(&p, index)| Item { p, index }).collect();
+    let mut unit = LANES;
+    while unit * LANES < items.len() {
+        unit *= LANES;
+    }
+    split(&mut items, unit);
+    let leaves: Vec<Leaf> = items.par_chunks(LANES).map(Leaf::new).collect();
+    let mut bounds: Vec<Bound> = items.par_chunks(LANES).map(Bound::of_points).collect();
     let mut levels = vec![Level { first: 0, count: leaves.len() }];
     let mut nodes = Vec::new();
     while bounds.len() > 1 {
@@ -33,49 +45,45 @@ pub(super) fn build(points: &[Vec3]) -> KdTree {
     KdTree { leaves, nodes, levels, len: items.len(), isa: Isa::detect() }
 }
 
-/// Sorts `items`, whose lower halves are indices of points in rising order, along the Morton curve of their bounds.
-/// Points that share a place on it are sorted along a finer curve of their own, so that a small dense spot in a large
-/// scene is split as well as the scene; those that coincide keep the order of their indices.
-fn sort(points: &[Vec3], items: &mut [u64]) {
-    let point = |item: u64| points[item as u32 as usize];
-    let start = (Vec3::INFINITY, Vec3::NEG_INFINITY);
-    let (lo, hi) = items.iter().fold(start, |(lo, hi), &item| (lo.min(point(item)), hi.max(point(item))));
-    if items.is_empty() || lo == hi {
+/// Sorts `items` so that each run of `unit` points is one element of a level, each run of `unit / 16` one of the level
+/// below, and so on: halves the elements at the median along the longest axis until one is left. Equal coordinates are
+/// told apart by index, so that coinciding points end up in the order of their indices.
+fn split(items: &mut [Item], unit: usize) {
+    let elements = items.len().div_ceil(unit);
+    if elements <= 1 {
+        if items.len() > LANES {
+            split(items, unit / LANES);
+        }
         return;
     }
-    let lo = lo.as_dvec3();
-    let scale = f64::from(1 << BITS) / (hi.as_dvec3() - lo).max_element();
-    items.par_iter_mut().with_min_len(1 << 12).for_each(|item| {
-        *item = morton((point(*item).as_dvec3() - lo) * scale) << 32 | (*item & u64::from(u32::MAX));
-    });
-    items.par_sort_unstable();
-    let runs: Vec<&mut [u64]> = items.chunk_by_mut(|a, b| a >> 32 == b >> 32).filter(|run| run.len() > LANES).collect();
-    runs.into_par_iter().for_each(|run| sort(points, run));
+    let bound = Bound::of_points(items);
+    // Halves, since the whole may be too long for a float.
+    let axis = (bound.hi * 0.5 - bound.lo * 0.5).max_position();
+    let middle = elements / 2 * unit;
+    items.select_nth_unstable_by_key(middle, |item| u64::from(rank(item.p[axis])) << 32 | u64::from(item.index));
+    let (low, high) = items.split_at_mut(middle);
+    if low.len() > PARALLEL {
+        rayon::join(|| split(low, unit), || split(high, unit));
+    } else {
+        split(low, unit);
+        split(high, unit);
+    }
 }
 
-/// Interleaves the lowest bits of the coordinates' whole parts.
-fn morton(place: DVec3) -> u64 {
-    let [x, y, z] = place.to_array().map(|v| spread((v as u64).min((1 << BITS) - 1)));
-    x | y << 1 | z << 2
-}
-
-/// Puts two zeros above each of the lowest ten bits.
-fn spread(v: u64) -> u64 {
-    let v = (v | v << 16) & 0x0300_00FF;
-    let v = (v | v << 8) & 0x0300_F00F;
-    let v = (v | v << 4) & 0x030C_30C3;
-    (v | v << 2) & 0x0924_9249
+/// The place of a number in the order of floats.
+fn rank(v: f32) -> u32 {
+    let bits = v.to_bits();
+    bits ^ (((bits as i32 >> 31) as u32) | 1 << 31)
 }
 
 impl Leaf {
-    fn new(points: &[Vec3], items: &[u64]) -> Self {
+    fn new(items: &[Item]) -> Self {
         let mut leaf = Self { at: [[f32::NAN; LANES]; 3], index: [u32::MAX; LANES] };
-        for (i, &item) in items.iter().enumerate() {
-            let index = item as u32;
-            for (axis, v) in points[index as usize].to_array().into_iter().enumerate() {
-                leaf.at[axis][i] = v;
+        for (i, item) in items.iter().enumerate() {
+            for axis in 0..3 {
+                leaf.at[axis][i] = item.p[axis];
             }
-            leaf.index[i] = index;
+            leaf.index[i] = item.index;
         }
         leaf
     }
@@ -99,15 +107,12 @@ impl Node {
 impl Bound {
     const EMPTY: Self = Self { lo: Vec3::INFINITY, hi: Vec3::NEG_INFINITY, lowest: u32::MAX };
 
-    fn of_points(points: &[Vec3], items: &[u64]) -> Self {
-        items.iter().fold(Self::EMPTY, |bound, &item| {
-            let p = points[item as u32 as usize];
-            bound.and(&Self { lo: p, hi: p, lowest: item as u32 })
-        })
+    fn of_points(items: &[Item]) -> Self {
+        items.iter().fold(Self::EMPTY, |bound, item| bound.and(&Self { lo: item.p, hi: item.p, lowest: item.index }))
     }
 
     fn of_all(bounds: &[Self]) -> Self {
-        bounds.iter().fold(Self::EMPTY, |all, bound| all.and(bound))
+        bounds.iter().fold(Self::EMPTY, Self::and)
     }
 
     fn and(self, other: &Self) -> Self {

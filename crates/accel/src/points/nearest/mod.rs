@@ -1,9 +1,9 @@
-//! The `k` nearest points: a linear kd-tree, sixteen wide.
+//! The `k` nearest points: a kd-tree, sixteen wide.
 //!
-//! Points are sorted along a Morton curve, which is the order of the leaves of a kd-tree that halves space along x, y
-//! and z in turn. Sixteen points in a row make a leaf, sixteen leaves in a row a node, sixteen nodes the next, so the
-//! tree needs no pointers: child `c` of node `i` is number `16 i + c` one level below. Nodes hold the bounds of their
-//! children. A query descends into the nearest child first and drops what lies beyond the worst of the `k` best so far.
+//! Space is halved at medians along the longest axis, as in any kd-tree; sixteen points make a leaf, and four halvings
+//! make one node of sixteen children. All but the last element of a level are full, so the tree needs no pointers:
+//! child `c` of node `i` is number `16 i + c` one level below. Nodes hold the bounds of their children, which are tested
+//! all at once. A query descends into the nearest child first and drops what lies beyond the worst of the `k` best.
 
 mod build;
 mod neighbours;

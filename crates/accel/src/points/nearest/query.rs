@@ -29,8 +29,8 @@ impl<'t> Query<'t> {
     #[inline(always)]
     fn is_beyond(&self, d2: f32, level: usize, number: usize) -> bool {
         let worst = self.best.worst();
-        if d2 < d2_of(worst) {
-            return false;
+        if d2 != d2_of(worst) {
+            return d2 > d2_of(worst);
         }
         let Some(above) = self.tree.levels.get(level + 1) else { return false };
         let parent = &self.tree.nodes[above.first + number / LANES];
