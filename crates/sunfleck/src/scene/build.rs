@@ -128,7 +128,7 @@ impl SceneBuilder {
             std::mem::take(&mut self.surfaces).into_iter().map(|s| freeze(s, &mut lights)).collect();
         let objects: Vec<Vec<Surface>> = std::mem::take(&mut self.objects)
             .into_iter()
-            .map(|o| o.into_iter().map(|s| Surface { shape: s.shape, material: s.material, light: None }).collect())
+            .map(|o| o.into_iter().filter(|s| s.emission.is_none()).map(|s| freeze(s, &mut lights)).collect())
             .collect();
         let placements: Vec<Placement> = self.instances.iter().map(|&(o, m)| placement(o, m)).collect();
         let bvh = build_index(&surfaces, &objects, &placements, self.quality);
@@ -164,17 +164,17 @@ impl SceneBuilder {
         self.instances.iter().try_for_each(|(o, _)| check("object", o.0, self.objects.len()))
     }
 
-    /// Objects that emit are copied into the world at each placement, so that every light has one place.
+    /// Emitting surfaces of objects are copied into the world at each placement, so that every light has one place.
     fn flatten_emitting_instances(&mut self) -> Result<(), SceneError> {
-        let emits: Vec<bool> = self.objects.iter().map(|o| o.iter().any(|s| s.emission.is_some())).collect();
-        let (flat, kept): (Vec<_>, Vec<_>) = self.instances.drain(..).partition(|(o, _)| emits[o.0 as usize]);
-        self.instances = kept;
-        for (object, m) in flat {
-            for s in &self.objects[object.0 as usize] {
-                let shape = s.shape.transformed(&m).ok_or(SceneError::StretchedLight { object: object.0 })?;
+        for (object, m) in &self.instances {
+            for s in self.objects[object.0 as usize].iter().filter(|s| s.emission.is_some()) {
+                let shape = s.shape.transformed(m).ok_or(SceneError::StretchedLight { object: object.0 })?;
                 self.surfaces.push(SurfaceDef { shape, ..s.clone() });
             }
         }
+        // What does not emit stays behind; an object with nothing left needs no placing.
+        let objects = &self.objects;
+        self.instances.retain(|(o, _)| objects[o.0 as usize].iter().any(|s| s.emission.is_none()));
         Ok(())
     }
 }

@@ -120,7 +120,8 @@ impl Mesh {
         let normal_matrix = m.matrix3.inverse().transpose();
         let mirrored = m.matrix3.determinant() < 0.0;
         let positions: Vec<Vec3> = self.positions.iter().map(|&p| m.transform_point3(p)).collect();
-        let normals = self.normals.iter().map(|&n| (normal_matrix * n).normalize_or(Vec3::Z)).collect();
+        // Not normalised: interpolating moved normals is then the same as moving interpolated ones, as instances do.
+        let normals = self.normals.iter().map(|&n| normal_matrix * n).collect();
         let indices = self.indices.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect();
         Self::new(positions, normals, self.uvs.clone(), indices).expect("a valid mesh stays valid when moved")
     }

@@ -55,15 +55,16 @@ impl ImageTexture {
         let sum = self.pixels.iter().fold(glam::DVec3::ZERO, |s, p| s + p.as_dvec3());
         (sum / self.pixels.len() as f64).as_vec3()
     }
-    /// Bilinear interpolation between the four nearest pixel centres.
+    /// Bilinear interpolation between the four nearest pixel centres. Broken coordinates give the lower left corner.
     #[inline]
     pub fn eval(&self, uv: Vec2) -> Rgb {
         let p = Vec2::new(uv.x * self.width as f32 - 0.5, (1.0 - uv.y) * self.height as f32 - 0.5);
+        let p = if p.is_finite() { p } else { Vec2::new(-0.5, self.height as f32 - 0.5) };
         let cell = p.floor();
         let f = p - cell;
         let at = |dx: i64, dy: i64| -> Vec3 {
-            let x = self.wrap[0].index(cell.x as i64 + dx, self.width);
-            let y = self.wrap[1].index(cell.y as i64 + dy, self.height);
+            let x = self.wrap[0].index((cell.x as i64).saturating_add(dx), self.width);
+            let y = self.wrap[1].index((cell.y as i64).saturating_add(dy), self.height);
             self.pixels[y * self.width + x]
         };
         at(0, 0).lerp(at(1, 0), f.x).lerp(at(0, 1).lerp(at(1, 1), f.x), f.y)

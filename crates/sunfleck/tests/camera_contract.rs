@@ -1,0 +1,184 @@
+//! What every camera promises: the ray through a place of the picture and the way back agree, and it measures radiance.
+use glam::{Vec2, Vec3};
+use sunfleck::{
+    camera::{Camera, Perspective, PerspectiveError, Project, View},
+    sampler::{Domain, Sampler},
+};
+
+const VIEW: View = View { position: Vec3::new(1.0, 2.0, -3.0), look_at: Vec3::new(0.5, 1.0, 4.0), up: Vec3::Y };
+const FRONT: View = View { position: Vec3::ZERO, look_at: Vec3::Z, up: Vec3::Y };
+
+fn cameras() -> Vec<(&'static str, Camera)> {
+    let pinhole = || Perspective::new(&VIEW, 50.0, 1.6).unwrap();
+    vec![
+        ("pinhole", pinhole().into()),
+        ("thin lens", pinhole().with_lens(0.4, 3.0).unwrap().into()),
+        ("wide thin lens", Perspective::new(&VIEW, 100.0, 0.7).unwrap().with_lens(0.5, 1.0).unwrap().into()),
+    ]
+}
+
+fn sampler(i: u64) -> Sampler {
+    Sampler::new(9, Domain::Prepare, 0, i)
+}
+
+#[test]
+fn the_way_back_from_a_point_on_a_ray_leads_to_the_same_place() {
+    for (name, camera) in cameras() {
+        for i in 0..2000 {
+            let s = &mut sampler(i);
+            let (raster, u_lens) = (s.next_2d(), s.next_2d());
+            let out = camera.ray(raster, u_lens);
+            assert!((out.ray.d.length() - 1.0).abs() < 1e-5);
+            let t = 0.5 + 20.0 * s.next_1d();
+            let back = camera.sample_wi(out.ray.at(t), u_lens).unwrap();
+            assert!((back.raster - raster).length() < 1e-4, "{name}: {raster} became {}", back.raster);
+            assert!((back.p - out.ray.o).length() < 1e-5 && (back.wi + out.ray.d).length() < 1e-4, "{name}");
+            assert!((back.importance * out.solid_angle * t * t - 1.0).abs() < 1e-3, "{name}");
+        }
+    }
+}
+
+#[test]
+fn what_is_behind_the_camera_is_not_seen() {
+    for (name, camera) in cameras() {
+        let away = VIEW.position - VIEW.look_at;
+        for p in [VIEW.position + away, VIEW.position + 0.1 * away + 3.0 * Vec3::X] {
+            assert!(camera.sample_wi(p, Vec2::splat(0.3)).is_none(), "{name}");
+        }
+    }
+}
+
+/// A sheet that fills the view and shines evenly must look even: every field of the picture collects
+/// `L·cos·importance / pdf_area` of points spread over the sheet, with a mean of L.
+#[test]
+fn a_matt_sheet_of_radiance_one_measures_one_everywhere() {
+    const N: u64 = 400_000;
+    const FIELDS: usize = 6;
+    let n = Vec3::new(0.3, 0.2, -1.0).normalize();
+    let (u, v) = n.any_orthonormal_pair();
+    for (name, camera) in cameras() {
+        let (centre, half) = (VIEW.position + 4.0 * (VIEW.look_at - VIEW.position).normalize(), 14.0);
+        let area = f64::from(4.0 * half * half);
+        let mut tally = [[0.0f64; 2]; FIELDS * FIELDS];
+        for i in 0..N {
+            let s = &mut sampler(i);
+            let at = half * (2.0 * s.next_2d() - 1.0);
+            let p = centre + at.x * u + at.y * v;
+            let Some(c) = camera.sample_wi(p, s.next_2d()) else { continue };
+            let q = c.raster * FIELDS as f32;
+            if q.cmpge(Vec2::ZERO).all() && q.cmplt(Vec2::splat(FIELDS as f32)).all() {
+                let per_field = area * (FIELDS * FIELDS) as f64;
+                let x = f64::from(n.dot(c.wi).max(0.0) * c.importance) * per_field;
+                let t = &mut tally[q.y as usize * FIELDS + q.x as usize];
+                *t = [t[0] + x, t[1] + x * x];
+            }
+        }
+        let n = N as f64;
+        for (i, [s, s2]) in tally.iter().enumerate() {
+            let (mean, error) = (s / n, ((s2 - s * s / n).max(0.0)).sqrt() / n);
+            assert!(error < 0.1 && (mean - 1.0).abs() < 4.5 * error, "{name}, field {i}: {mean} ± {error}");
+        }
+        let all = tally.iter().map(|t| t[0]).sum::<f64>() / n / (FIELDS * FIELDS) as f64;
+        assert!((all - 1.0).abs() < 0.01, "{name}: {all}");
+    }
+}
+
+#[test]
+fn the_solid_angles_of_the_picture_add_up_to_the_pyramid_it_spans() {
+    for (fov, aspect) in [(40.0f32, 1.0f32), (90.0, 2.0), (20.0, 0.5)] {
+        let camera = Perspective::new(&VIEW, fov, aspect).unwrap();
+        let b = (0.5 * fov.to_radians()).tan();
+        let a = b * aspect;
+        let want = 4.0 * (a * b / (1.0 + a * a + b * b).sqrt()).atan();
+        let n = 200;
+        let raster = |i: u32| Vec2::new((i % n) as f32 + 0.5, (i / n) as f32 + 0.5) / n as f32;
+        let sum: f64 = (0..n * n).map(|i| f64::from(camera.ray(raster(i), Vec2::ZERO).solid_angle)).sum();
+        let mean = sum as f32 / (n * n) as f32;
+        assert!((mean / want - 1.0).abs() < 1e-3, "{mean} against {want}");
+    }
+}
+
+#[test]
+fn looking_along_z_x_is_on_the_left_and_y_on_top() {
+    let camera = Perspective::new(&FRONT, 90.0, 2.0).unwrap();
+    let raster = |p: Vec3| camera.sample_wi(p, Vec2::ZERO).unwrap().raster;
+    for (p, want) in [
+        (Vec3::Z, (0.5, 0.5)),
+        // 90 degrees from top to bottom; the picture is twice as wide.
+        (Vec3::new(0.0, 1.0, 1.0), (0.5, 0.0)),
+        (Vec3::new(0.0, -2.0, 2.0), (0.5, 1.0)),
+        (Vec3::new(2.0, 0.0, 1.0), (0.0, 0.5)),
+        (Vec3::new(-1.0, 0.5, 1.0), (0.75, 0.25)),
+    ] {
+        assert!((raster(p) - Vec2::from(want)).length() < 1e-5, "{p} is seen at {}", raster(p));
+    }
+}
+
+#[test]
+fn a_tilted_or_useless_up_still_gives_an_upright_basis() {
+    for up in [Vec3::new(0.0, 1.0, 5.0), Vec3::Z, Vec3::ZERO, Vec3::NEG_Z * 1e-20] {
+        let camera = Perspective::new(&View { up, ..FRONT }, 60.0, 1.0).unwrap();
+        let d = |x, y| camera.ray(Vec2::new(x, y), Vec2::ZERO).ray.d;
+        assert!((d(0.5, 0.5) - Vec3::Z).length() < 1e-6);
+        let (right, top) = (d(1.0, 0.5) - d(0.0, 0.5), d(0.5, 0.0) - d(0.5, 1.0));
+        assert!((right.length() - 1.0).abs() < 1e-5 && (top.length() - 1.0).abs() < 1e-5, "{up}");
+        assert!(right.dot(top).abs() < 1e-5 && right.cross(top).z < -0.99, "{up}");
+    }
+}
+
+#[test]
+fn points_in_focus_are_sharp_and_others_blur_to_the_circle_of_confusion() {
+    let (aperture, focus) = (0.2, 4.0);
+    let camera = Perspective::new(&FRONT, 53.13, 1.0).unwrap().with_lens(aperture, focus).unwrap();
+    // 53.13 degrees: the picture is one unit high at distance one.
+    let spread = |p: Vec3| {
+        let seen: Vec<Vec2> = (0..500).map(|i| camera.sample_wi(p, sampler(i).next_2d()).unwrap().raster).collect();
+        let middle = seen.iter().sum::<Vec2>() / 500.0;
+        seen.iter().map(|r| r.distance(middle)).fold(0.0, f32::max)
+    };
+    for (x, y) in [(0.0, 0.0), (1.2, -0.7), (-1.9, 1.9)] {
+        assert!(spread(Vec3::new(x, y, focus)) < 1e-5, "({x}, {y}) is in focus");
+    }
+    for z in [2.0f32, 8.0] {
+        // A point at z is projected from the rim of the lens with an offset of r·|1/z − 1/focus| at distance one.
+        let want = 0.5 * aperture * (1.0 / z - 1.0 / focus).abs();
+        assert!((spread(Vec3::new(0.1, 0.2, z)) / want - 1.0).abs() < 0.05, "at {z}");
+    }
+}
+
+#[test]
+fn a_lens_is_sampled_all_over() {
+    let camera = Perspective::new(&FRONT, 40.0, 1.0).unwrap().with_lens(2.0, 5.0).unwrap();
+    let n = 4096;
+    let p: Vec<Vec3> = (0..n).map(|i| camera.ray(Vec2::splat(0.5), sampler(i).next_2d()).ray.o).collect();
+    let mean2 = p.iter().map(|p| f64::from(p.length_squared())).sum::<f64>() / n as f64;
+    let mean = p.iter().sum::<Vec3>() / n as f32;
+    assert!(p.iter().all(|p| p.length() < 1.0001 && p.z == 0.0), "the lens has radius 1");
+    assert!((mean2 - 0.5).abs() < 0.01 && mean.length() < 0.01, "mean r² {mean2}, centre {mean}");
+}
+
+#[test]
+fn numbers_that_make_no_camera_are_named() {
+    let message = |r: Result<Perspective, PerspectiveError>| r.err().map(|e| e.to_string()).unwrap_or_default();
+    let new = |view: View, fov, aspect| message(Perspective::new(&view, fov, aspect));
+    for (found, want) in [
+        (new(FRONT, 0.0, 1.0), "the field of view is 0, but must be more than 0 and less than 180 degrees"),
+        (new(FRONT, f32::NAN, 1.0), "the field of view is NaN, but must be more than 0 and less than 180 degrees"),
+        (new(FRONT, 180.0, 1.0), "the field of view is 180, but must be more than 0 and less than 180 degrees"),
+        (new(FRONT, 40.0, -1.0), "the aspect ratio is -1, but must be positive"),
+        (
+            new(View { look_at: FRONT.position, ..FRONT }, 40.0, 1.0),
+            "the camera at [0, 0, 0] cannot look at [0, 0, 0]: the two must be finite and different points",
+        ),
+        (
+            message(Perspective::new(&FRONT, 40.0, 1.0).unwrap().with_lens(-0.1, 1.0)),
+            "the aperture is -0.1, but must be zero or positive",
+        ),
+        (
+            message(Perspective::new(&FRONT, 40.0, 1.0).unwrap().with_lens(0.1, 0.0)),
+            "the focus distance is 0, but must be positive",
+        ),
+    ] {
+        assert_eq!(found, want);
+    }
+}
