@@ -78,4 +78,12 @@ agreement![
     thin_lens,
     mesh_light,
     sphere_light,
+    spot_light,
+    directional_light,
+    environment_light,
+    rough_glass,
+    rough_metal,
+    glossy_paint,
+    textures,
+    an_eye_in_glass,
 ];

@@ -1,11 +1,15 @@
 //! Tiny scenes, each with one thing that algorithms get wrong.
 use glam::{Affine3A, Quat, Vec2, Vec3};
 use sunfleck::{
-    bsdf::{DielectricMaterial, DiffuseMaterial, MirrorMaterial},
+    bsdf::{
+        ConductorMaterial, CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, MirrorMaterial, PhongMaterial,
+        RoughConductorMaterial, RoughDielectricMaterial,
+    },
     camera::{Perspective, View},
-    light::{PointLight, Sides},
+    light::{DirectionalLight, EnvironmentLight, PointLight, Sides, SpotLight},
     scene::{MaterialId, Scene, SceneBuilder, SurfaceDef},
     shape::{Mesh, Parallelogram, Shape, Sphere},
+    texture::{ImageTexture, Texture, Wrap},
 };
 
 pub(crate) struct TinyScene {
@@ -16,9 +20,9 @@ pub(crate) struct TinyScene {
 }
 
 /// Every algorithm sees everything.
-const ALL: &[(&str, u64)] = &[("path", 400), ("light", 400), ("ppm", 150)];
+const ALL: &[(&str, u64)] = &[("path", 400), ("light", 400), ("ppm", 150), ("photonmap", 150)];
 /// Mirrors and glass before the camera: blind for `light`.
-const NOT_LIGHT: &[(&str, u64)] = &[("path", 1600), ("ppm", 150)];
+const NOT_LIGHT: &[(&str, u64)] = &[("path", 1600), ("ppm", 150), ("photonmap", 150)];
 
 pub(crate) const SCENES: &[TinyScene] = &[
     TinyScene { name: "diffuse_room", algorithms: ALL, build: diffuse_room },
@@ -31,6 +35,14 @@ pub(crate) const SCENES: &[TinyScene] = &[
     TinyScene { name: "thin_lens", algorithms: ALL, build: thin_lens },
     TinyScene { name: "mesh_light", algorithms: ALL, build: mesh_light },
     TinyScene { name: "sphere_light", algorithms: ALL, build: sphere_light },
+    TinyScene { name: "spot_light", algorithms: ALL, build: spot_light },
+    TinyScene { name: "directional_light", algorithms: ALL, build: directional_light },
+    TinyScene { name: "environment_light", algorithms: ALL, build: environment_light },
+    TinyScene { name: "rough_glass", algorithms: ALL, build: rough_glass },
+    TinyScene { name: "rough_metal", algorithms: ALL, build: rough_metal },
+    TinyScene { name: "glossy_paint", algorithms: ALL, build: glossy_paint },
+    TinyScene { name: "textures", algorithms: ALL, build: textures },
+    TinyScene { name: "an_eye_in_glass", algorithms: NOT_LIGHT, build: an_eye_in_glass },
 ];
 
 /// A room 2 x 2 x 2 around the origin with an open front at z = 1, walls of three colours, and the eye before it.
@@ -67,9 +79,14 @@ fn emit(b: &mut SceneBuilder, shape: Shape, radiance: Vec3, sides: Sides) {
     b.surface(SurfaceDef { shape, material, emission: Some((radiance, sides)) });
 }
 
-fn glass(b: &mut SceneBuilder) -> MaterialId {
+fn clear_glass(b: &mut SceneBuilder) -> DielectricMaterial {
     let white = b.constant(Vec3::ONE);
-    b.material(DielectricMaterial { eta: 1.5, reflectance: white, transmittance: white })
+    DielectricMaterial { eta: 1.5, reflectance: white, transmittance: white }
+}
+
+fn glass(b: &mut SceneBuilder) -> MaterialId {
+    let glass = clear_glass(b);
+    b.material(glass)
 }
 
 fn ball(centre: [f32; 3], radius: f32) -> Shape {
@@ -185,5 +202,87 @@ fn mesh_light() -> Scene {
 fn sphere_light() -> Scene {
     let mut b = room();
     emit(&mut b, ball([0.2, 0.3, 0.0], 0.25), Vec3::new(6.0, 5.0, 4.0), Sides::One);
+    finish(b)
+}
+
+fn spot_light() -> Scene {
+    let mut b = room();
+    let grey = diffuse(&mut b, Vec3::splat(0.6));
+    b.add(ball([0.2, -0.6, 0.0], 0.4), grey);
+    let spot = SpotLight::new(Vec3::new(-0.5, 0.7, 0.4), Vec3::new(0.6, -1.0, -0.3), Vec3::splat(4.0), [0.3, 0.8]);
+    b.light(spot.unwrap());
+    finish(b)
+}
+
+fn directional_light() -> Scene {
+    let mut b = room();
+    let grey = diffuse(&mut b, Vec3::splat(0.6));
+    b.add(ball([0.2, -0.5, 0.0], 0.5), grey);
+    b.light(DirectionalLight::new(Vec3::new(0.3, -0.4, -1.0), Vec3::new(3.0, 2.5, 2.0)).unwrap());
+    finish(b)
+}
+
+/// A sky with a bright patch, seen through the open front.
+fn environment_light() -> Scene {
+    let mut b = room();
+    let (w, h) = (16usize, 8usize);
+    let sky = |i: usize| {
+        let (x, y) = (i % w, i / w);
+        let patch = if (10..13).contains(&x) && (2..4).contains(&y) { 12.0 } else { 0.0 };
+        Vec3::new(0.5 + patch, 0.6 + patch, 1.0 + 0.1 * y as f32)
+    };
+    let image = ImageTexture::new(w, h, (0..w * h).map(sky).collect(), Wrap::Repeat).unwrap();
+    b.light(EnvironmentLight::panorama(image, Vec3::ONE, glam::Mat3::IDENTITY).unwrap());
+    let grey = diffuse(&mut b, Vec3::splat(0.6));
+    b.add(ball([0.0, -0.5, 0.6], 0.4), grey);
+    finish(b)
+}
+
+fn rough_glass() -> Scene {
+    let mut b = room();
+    let glass = clear_glass(&mut b);
+    let frosted = b.material(RoughDielectricMaterial { glass, alpha: 0.4 });
+    b.add(ball([0.1, -0.4, 0.1], 0.5), frosted);
+    emit(&mut b, lamp(1.2, 0.95), Vec3::splat(5.0), Sides::One);
+    finish(b)
+}
+
+fn rough_metal() -> Scene {
+    let mut b = room();
+    let [eta, k, reflectance] = [Vec3::new(0.2, 0.9, 1.1), Vec3::new(3.9, 2.4, 2.3), Vec3::ONE].map(|c| b.constant(c));
+    let gold = b.material(RoughConductorMaterial { metal: ConductorMaterial { eta, k, reflectance }, alpha: 0.3 });
+    b.add(ball([-0.2, -0.4, 0.0], 0.6), gold);
+    emit(&mut b, lamp(1.2, 0.95), Vec3::splat(5.0), Sides::One);
+    finish(b)
+}
+
+fn glossy_paint() -> Scene {
+    let mut b = room();
+    let [body, shine, f0] = [Vec3::new(0.4, 0.2, 0.1), Vec3::splat(0.5), Vec3::splat(0.04)].map(|c| b.constant(c));
+    let phong = b.material(PhongMaterial { diffuse: body, specular: shine, exponent: 12.0 });
+    let varnish = b.material(CookTorranceMaterial { albedo: body, f0, roughness: 0.5, metallic: 0.3 });
+    b.add(ball([-0.45, -0.5, 0.0], 0.4), phong);
+    b.add(ball([0.45, -0.5, 0.0], 0.4), varnish);
+    emit(&mut b, lamp(1.2, 0.95), Vec3::splat(5.0), Sides::One);
+    finish(b)
+}
+
+fn textures() -> Scene {
+    let mut b = room();
+    let checks = (0..64).map(|i| if (i + i / 8) % 2 == 0 { Vec3::new(0.8, 0.3, 0.1) } else { Vec3::splat(0.1) }).collect();
+    let reflectance = b.texture(Texture::Image(ImageTexture::new(8, 8, checks, Wrap::Repeat).unwrap()));
+    let tiles = b.material(DiffuseMaterial { reflectance });
+    let board = Parallelogram { p: Vec3::new(-0.9, -0.8, -0.5), u: 1.8 * Vec3::X, v: Vec3::new(0.0, 1.4, -0.4) };
+    b.add(Shape::Parallelogram(board), tiles);
+    emit(&mut b, lamp(0.8, 0.95), Vec3::splat(8.0), Sides::One);
+    finish(b)
+}
+
+/// The eye sits in a ball of glass: radiance it sees is larger by η², flux is not.
+fn an_eye_in_glass() -> Scene {
+    let mut b = room();
+    let glass = glass(&mut b);
+    b.add(ball([0.0, 0.0, 3.4], 0.5), glass);
+    emit(&mut b, lamp(1.6, 0.95), Vec3::splat(3.0), Sides::One);
     finish(b)
 }
