@@ -6,7 +6,7 @@
 //! that its sphere may touch, finds which of their cells it touches by one vector comparison, and tests the runs of
 //! points in those cells sixteen at a time.
 //!
-//! A query of radius `r` is fastest with cells of about `r` to `2 r`, and right with any.
+//! A query of radius `r` is fastest with cells of about `r` to `1.5 r`, and right with any.
 
 mod brick;
 mod build;
