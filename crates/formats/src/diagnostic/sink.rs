@@ -47,11 +47,15 @@ impl Sink {
     /// `value` if no error was recorded.
     ///
     /// # Errors
-    /// All errors recorded, with the warnings.
+    /// All errors recorded, in the order of their places, with the warnings.
     pub fn finish<T>(&mut self, value: T) -> Result<T, Error> {
         if self.is_ok() {
             return Ok(value);
         }
+        self.errors.sort_by_key(|e| {
+            let at = e.place.as_ref().map(|p| (p.file.clone(), p.at.as_ref().map(|at| (at.line, at.column))));
+            at.unwrap_or_default()
+        });
         if self.is_full()
             && let Some(last) = self.errors.last_mut()
         {
