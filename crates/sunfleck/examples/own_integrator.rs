@@ -137,7 +137,7 @@ fn write_pfm(path: &Path, film: &Film) -> io::Result<()> {
     let (width, height) = (film.spec().width, film.spec().height);
     let mut bytes = format!("PF\n{width} {height}\n-1.0\n").into_bytes();
     for row in film.mean().chunks(width as usize).rev() {
-        bytes.extend(row.iter().flat_map(|p| p.to_array()).flat_map(f32::to_le_bytes));
+        bytes.extend(row.iter().flat_map(Vec3::to_array).flat_map(f32::to_le_bytes));
     }
     fs::write(path, bytes)
 }
