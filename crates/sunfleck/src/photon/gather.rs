@@ -3,8 +3,12 @@
 //! `L = Σ f(wi) Φ K(d)` over the photons in a disc (Jensen 1996, eq. 7): photons give irradiance per area of the true
 //! surface, and [`Interaction::f_photon`] turns it into radiance. It is zero for photons that arrive on a side from
 //! which the material sends nothing to the eye, so light does not leak through thin walls.
-use super::{Kernel, NearestMap, RadiusMap};
-use crate::{scene::Interaction, spectrum::Spectrum};
+use super::{Kernel, NearestMap, Photon, RadiusMap};
+use crate::{
+    bsdf::{Bsdf, Transport},
+    scene::Interaction,
+    spectrum::Spectrum,
+};
 use accel::Neighbours;
 use glam::Vec3;
 use std::f32::consts::PI;
@@ -18,18 +22,52 @@ pub struct Disc {
     pub kernel: Kernel,
 }
 
+/// Adds up what photons scatter toward the eye.
+struct Sum<'i> {
+    at: &'i Interaction,
+    /// Set where scattering is the same for all directions on the eye's side and none on the other, which is where most
+    /// photons are gathered: only their flux needs summing.
+    matt: bool,
+    sum: Spectrum,
+}
+
+impl<'i> Sum<'i> {
+    #[inline]
+    fn new(at: &'i Interaction) -> Self {
+        Self { at, matt: matches!(at.bsdf, Bsdf::Diffuse(_)), sum: Spectrum::BLACK }
+    }
+    #[inline]
+    fn add(&mut self, photon: &Photon, weight: f32) {
+        if !self.matt {
+            self.sum += self.at.f_photon(photon.wi) * photon.flux * weight;
+            return;
+        }
+        let (n, ng, wo) = (self.at.frame.n, self.at.ng, self.at.wo);
+        let (cos, cos_g) = (n.dot(photon.wi), ng.dot(photon.wi));
+        if cos * n.dot(wo) > 0.0 && cos_g * ng.dot(wo) > 0.0 {
+            self.sum += photon.flux * (weight * (cos / cos_g).abs());
+        }
+    }
+    /// Radiance, when the weights are over the mean on a disc of squared radius `r2`.
+    #[inline]
+    fn radiance(self, r2: f32) -> Spectrum {
+        let flux_to_radiance = if self.matt { self.at.f(self.at.wo, Transport::Radiance) } else { Spectrum::ONE };
+        flux_to_radiance * self.sum * (1.0 / (PI * r2))
+    }
+}
+
 /// Radiance that `at` scatters toward `at.wo` from all photons of the disc around it that were scattered at most `most`
 /// times.
 #[inline]
 pub fn gather_within(map: &RadiusMap, at: &Interaction, disc: Disc, most: u32) -> Spectrum {
     let r2 = disc.radius * disc.radius;
-    let mut sum = Spectrum::BLACK;
+    let mut sum = Sum::new(at);
     map.within(at.p, disc.radius, |photon, d2| {
         if photon.scatterings <= most {
-            sum += at.f_photon(photon.wi) * photon.flux * disc.kernel.shape(d2, r2);
+            sum.add(photon, disc.kernel.shape(d2, r2));
         }
     });
-    sum * (1.0 / (PI * r2))
+    sum.radiance(r2)
 }
 
 /// A running search for the nearest photons, reused from place to place.
@@ -89,13 +127,16 @@ pub fn gather_nearest(
     kernel: Kernel,
     most: u32,
 ) -> Spectrum {
+    if map.is_empty() {
+        return Spectrum::BLACK;
+    }
     let (count, r2) = query.find(map, at.p);
-    let mut sum = Spectrum::BLACK;
+    let mut sum = Sum::new(at);
     for (index, d2) in query.found.iter().take(count) {
         let photon = map.photon(index);
         if photon.scatterings <= most {
-            sum += at.f_photon(photon.wi) * photon.flux * kernel.shape(d2, r2);
+            sum.add(photon, kernel.shape(d2, r2));
         }
     }
-    sum * (1.0 / (PI * r2))
+    sum.radiance(r2)
 }

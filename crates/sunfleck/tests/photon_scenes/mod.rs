@@ -1,7 +1,7 @@
 //! Small scenes and measurements shared by the tests of photons and of the algorithms that use them.
 #![allow(unreachable_pub, reason = "a module of tests, of which each file uses a part")]
 #![allow(dead_code, reason = "as above")]
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::ops::ControlFlow;
 use sunfleck::{
     bsdf::{DielectricMaterial, DiffuseMaterial},
@@ -11,7 +11,7 @@ use sunfleck::{
     light::Sides,
     render::{Budget, Settings, render},
     scene::{MaterialId, Scene, SceneBuilder, SurfaceDef},
-    shape::{Parallelogram, Shape, Sphere},
+    shape::{Mesh, Parallelogram, Shape, Sphere},
     spectrum::Rgb,
 };
 
@@ -39,7 +39,7 @@ pub fn shoot(scene: &Scene, integrator: &dyn Integrator, spec: FilmSpec, passes:
 /// Mean over the picture.
 pub fn mean(film: &Film) -> Rgb {
     let pixels = film.mean();
-    (pixels.iter().map(|p| p.as_dvec3()).sum::<glam::DVec3>() / pixels.len() as f64).as_vec3()
+    (pixels.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / pixels.len() as f64).as_vec3()
 }
 
 /// A perspective camera of square pictures.
@@ -133,4 +133,62 @@ pub fn furnace_box(le: Rgb, albedo: Rgb) -> Scene {
     }
     b.camera(eye(Vec3::new(0.3, 0.1, -0.9), Vec3::Z, 80.0));
     b.build().expect("a scene")
+}
+
+/// [`room`] with a floor mat whose shading normals lean by 35 degrees, of a material made by `material`.
+pub fn leaning(material: impl Fn(&mut SceneBuilder) -> MaterialId) -> Scene {
+    let mut b = room(Rgb::splat(10.0), 0.6);
+    let m = material(&mut b);
+    let p = [[-0.8, -0.9, -0.6], [-0.8, -0.9, 0.8], [0.8, -0.9, 0.8], [0.8, -0.9, -0.6]].map(Vec3::from).to_vec();
+    let lean = Vec3::new(0.35f32.sin(), 0.35f32.cos(), 0.2).normalize();
+    let mat = Mesh::new(p, vec![lean; 4], vec![], vec![[0, 1, 2], [2, 3, 0]]).expect("a mesh");
+    b.add(Shape::Mesh(mat), m);
+    b.build().expect("a scene")
+}
+
+/// Means and variances of the mean, by block of pixels and channel.
+pub struct Blocks(Vec<(DVec3, DVec3)>);
+
+/// Renders `batches` times `passes` passes, each batch with a seed of its own, so that what photons do to several pixels
+/// at once is part of the variance.
+pub fn measure(scene: &Scene, integrator: &dyn Integrator, size: u32, batches: u64, passes: u64) -> Blocks {
+    const BLOCK: usize = 8;
+    let w = size as usize / BLOCK;
+    let mut sums = vec![(DVec3::ZERO, DVec3::ZERO); w * w];
+    for seed in 0..batches {
+        let budget = Budget { passes: Some(passes), time: None };
+        let settings = Settings { spec: spec(size), seed: seed + 100, budget };
+        let film = render(scene, integrator, &settings, |_, _| ControlFlow::Continue(()));
+        let mut blocks = vec![DVec3::ZERO; w * w];
+        for (i, p) in film.mean().iter().enumerate() {
+            let (x, y) = (i % size as usize / BLOCK, i / size as usize / BLOCK);
+            blocks[y * w + x] += p.as_dvec3() / (BLOCK * BLOCK) as f64;
+        }
+        for (sum, b) in sums.iter_mut().zip(&blocks) {
+            *sum = (sum.0 + b, sum.1 + b * b);
+        }
+    }
+    let n = batches as f64;
+    let finish = |(s, sq): (DVec3, DVec3)| (s / n, (sq / n - (s / n) * (s / n)).max(DVec3::ZERO) / (n - 1.0));
+    Blocks(sums.into_iter().map(finish).collect())
+}
+
+impl Blocks {
+    /// Mean over all blocks and channels.
+    pub fn mean(&self) -> f64 {
+        self.0.iter().map(|(m, _)| m.element_sum() / 3.0).sum::<f64>() / self.0.len() as f64
+    }
+    /// Holds two pictures against each other: deviations in units of their standard error, to which `bias`, a fraction
+    /// of the value, is added; the worst of all blocks and channels, and their root mean square.
+    pub fn deviation(&self, other: &Self, bias: f64) -> (f64, f64) {
+        let mut worst = 0.0f64;
+        let mut sum = 0.0;
+        for ((a, va), (b, vb)) in self.0.iter().zip(&other.0) {
+            let blur = bias * 0.5 * (a + b);
+            let z = (a - b) / (va + vb + blur * blur + 1e-20).map(f64::sqrt);
+            worst = worst.max(z.abs().max_element());
+            sum += z.length_squared();
+        }
+        (worst, (sum / (3 * self.0.len()) as f64).sqrt())
+    }
 }
