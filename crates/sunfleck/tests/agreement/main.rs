@@ -85,5 +85,6 @@ agreement![
     rough_metal,
     glossy_paint,
     textures,
+    unlike_lights,
     an_eye_in_glass,
 ];

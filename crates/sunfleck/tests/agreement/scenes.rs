@@ -42,6 +42,7 @@ pub(crate) const SCENES: &[TinyScene] = &[
     TinyScene { name: "rough_metal", algorithms: ALL, build: rough_metal },
     TinyScene { name: "glossy_paint", algorithms: ALL, build: glossy_paint },
     TinyScene { name: "textures", algorithms: ALL, build: textures },
+    TinyScene { name: "unlike_lights", algorithms: ALL, build: unlike_lights },
     TinyScene { name: "an_eye_in_glass", algorithms: NOT_LIGHT, build: an_eye_in_glass },
 ];
 
@@ -284,5 +285,14 @@ fn an_eye_in_glass() -> Scene {
     let glass = glass(&mut b);
     b.add(ball([0.0, 0.0, 3.4], 0.5), glass);
     emit(&mut b, lamp(1.6, 0.95), Vec3::splat(3.0), Sides::One);
+    finish(b)
+}
+
+/// A strong quad, a weak ball and a point: the choice between lights must cancel out.
+fn unlike_lights() -> Scene {
+    let mut b = room();
+    emit(&mut b, lamp(0.6, 0.95), Vec3::new(6.0, 5.0, 4.0), Sides::One);
+    emit(&mut b, ball([0.5, -0.7, 0.2], 0.2), Vec3::new(0.5, 2.0, 0.5), Sides::One);
+    b.light(PointLight { p: Vec3::new(-0.6, -0.2, 0.3), intensity: Vec3::new(0.1, 0.1, 0.4) });
     finish(b)
 }
