@@ -1,4 +1,3 @@
-
 use accel::PointGrid;
 use glam::Vec3;
 

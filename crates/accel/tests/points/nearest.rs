@@ -1,4 +1,3 @@
-
 use accel::{KdTree, Neighbours};
 use glam::Vec3;
 
