@@ -1,7 +1,7 @@
 //! Algorithms: from a scene to an estimate of its picture.
 //!
-//! To add one: write `integrator/<name>.rs` with its settings, an `ENTRY` and the two traits below, and add the entry to
-//! [`REGISTRY`]; command line, help and the agreement tests run over that list.
+//! To add one: write `integrator/<name>.rs` with its settings, an `ENTRY` and the two traits below, and add its `mod` line
+//! and its entry to [`REGISTRY`]; command line and help run over that list.
 mod light;
 mod params;
 mod path;

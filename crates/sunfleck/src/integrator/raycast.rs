@@ -64,12 +64,10 @@ impl Prepared<'_> {
     fn shade(&self, world: &World, at: &Interaction, eye: Vec3) -> Spectrum {
         let (lamp, intensity) = self.lamp.unwrap_or((eye, Rgb::ONE));
         let Some(wi) = (lamp - at.p).try_normalize() else { return Spectrum::BLACK };
-        let f_cos = if at.is_connectible() {
-            at.f_cos(wi, Transport::Radiance)
-        } else {
-            // Mirrors and glass are shaded as white paper.
-            Interaction { bsdf: Diffuse { reflectance: Spectrum::ONE }.into(), ..*at }.f_cos(wi, Transport::Radiance)
-        };
+        // Mirrors and glass are shaded as white paper.
+        let specular = at.sample(0.5, Vec2::splat(0.5), Transport::Radiance).is_some_and(|s| s.delta);
+        let paper = Interaction { bsdf: Diffuse { reflectance: Spectrum::ONE }.into(), ..*at };
+        let f_cos = if specular { paper } else { *at }.f_cos(wi, Transport::Radiance);
         if f_cos.is_black() || world.occluded(&at.spawn_to(wi, lamp)) {
             return Spectrum::BLACK;
         }

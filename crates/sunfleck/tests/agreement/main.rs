@@ -8,8 +8,8 @@ mod scenes;
 use estimate::{Estimate, estimate};
 use scenes::{SCENES, TinyScene};
 
-/// Standard errors that a block may differ by. With about 16,000 comparisons, 5.5 is passed by chance once in a thousand
-/// runs; seeds are fixed, so a run that passes always passes.
+/// Standard errors that a block may differ by. With about 5,000 comparisons, 5.5 is passed by chance once in several
+/// thousand runs; seeds are fixed, so a run that passes always passes.
 const LEVEL: f64 = 5.5;
 /// Relative bias of a block that a shrinking kernel may still have, at edges and in corners.
 const KERNEL_BIAS: f64 = 0.02;
