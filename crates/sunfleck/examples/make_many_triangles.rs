@@ -66,7 +66,7 @@ fn obj(leaves: u64, library: &str) -> String {
 }
 
 fn mtl() -> String {
-    GREENS.iter().map(|(name, [r, g, b])| format!("newmtl {name}\nKd {r} {g} {b}\n")).collect()
+    GREENS.map(|(name, [r, g, b])| format!("newmtl {name}\nKd {r} {g} {b}\n")).concat()
 }
 
 fn main() -> io::Result<()> {

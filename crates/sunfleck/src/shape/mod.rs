@@ -71,8 +71,8 @@ pub(crate) fn plane_error(e1: Vec3, e2: Vec3, normal: Vec3) -> Vec3 {
 
 /// Roundings that [`plane_error`] allows for: four times what `tests/shape_self_hits.rs` needs.
 const PLANE_ROUNDINGS: f32 = 4.0;
-/// Thinner needles are not worth the distance they would need: light would leak past their neighbours.
-const MAX_ELONGATION: f32 = 64.0;
+/// The distance that a thinner needle needs is more than its width; there, light would leak past its neighbours.
+const MAX_ELONGATION: f32 = 2000.0;
 
 impl Shape {
     /// The point that `hit` describes, in the shape's own space; `o + t d` is the hit for shapes that need it.
