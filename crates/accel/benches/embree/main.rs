@@ -3,6 +3,7 @@
 //! ```text
 //! pip install embreex
 //! cargo bench -p accel --bench embree -- [--library FILE] [--scene ball|clutter] [--reps N] [--quality high] [--level N]
+//!     [--side N]
 //! ```
 //!
 //! Without `--library` the folder of the Python package `embreex` is searched, and if there is no Embree the program
@@ -27,10 +28,11 @@ struct Options {
     reps: usize,
     quality: Quality,
     level: u32,
+    side: u32,
 }
 
 fn options() -> Options {
-    let mut options = Options { library: None, scene: None, reps: 3, quality: Quality::Default, level: 8 };
+    let mut options = Options { library: None, scene: None, reps: 3, quality: Quality::Default, level: 8, side: 1024 };
     let mut args = std::env::args().skip(1);
     while let Some(arg) = args.next() {
         let mut value = || args.next().unwrap_or_else(|| panic!("{arg} wants a value"));
@@ -40,6 +42,7 @@ fn options() -> Options {
             "--scene" => options.scene = Some(value()),
             "--reps" => options.reps = value().parse().expect("--reps wants a number"),
             "--level" => options.level = value().parse().expect("--level wants a number"),
+            "--side" => options.side = value().parse().expect("--side wants a number"),
             "--quality" => {
                 options.quality = if value() == "high" { Quality::High } else { Quality::Default };
             }
@@ -55,7 +58,10 @@ fn main() {
         println!("Embree 4 was not found; install it with `pip install embreex` or name it with --library");
         return;
     };
-    for (name, make) in [("ball", Box::new(|| scenes::ball(options.level)) as Box<dyn Fn() -> Mesh>), ("clutter", Box::new(scenes::clutter))] {
+    for (name, make) in [
+        ("ball", Box::new(|| scenes::ball(options.level)) as Box<dyn Fn() -> Mesh>),
+        ("clutter", Box::new(scenes::clutter)),
+    ] {
         if options.scene.as_deref().is_none_or(|wanted| wanted == name) {
             compare(name, &make(), &library, &options);
         }
@@ -68,9 +74,11 @@ fn find_embree() -> Option<PathBuf> {
     let output = Command::new("python3").args(["-c", script]).output().ok()?;
     let package = PathBuf::from(String::from_utf8(output.stdout).ok()?.trim());
     let folder = package.with_file_name("embreex.libs");
-    std::fs::read_dir(folder).ok()?.filter_map(Result::ok).map(|entry| entry.path()).find(|path| {
-        path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("libembree4"))
-    })
+    std::fs::read_dir(folder)
+        .ok()?
+        .filter_map(Result::ok)
+        .map(|entry| entry.path())
+        .find(|path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with("libembree4")))
 }
 
 fn compare(name: &str, mesh: &Mesh, library: &std::path::Path, options: &Options) {
@@ -92,7 +100,7 @@ fn compare(name: &str, mesh: &Mesh, library: &std::path::Path, options: &Options
         }
     }
     let (embree, own) = kept.expect("at least one repetition");
-    let sets = scenes::ray_sets(mesh, &own, 1024);
+    let sets = scenes::ray_sets(mesh, &own, options.side);
     for threads in [1, 2] {
         table(&embree, &own, &sets, threads, options.reps);
     }
@@ -100,7 +108,9 @@ fn compare(name: &str, mesh: &Mesh, library: &std::path::Path, options: &Options
 
 /// One row per ray set: Mrays per CPU second of both and their ratio, medians over `reps` interleaved runs.
 fn table(embree: &ffi::Scene, own: &Bvh, sets: &[RaySet], threads: usize, reps: usize) {
-    println!("\n| {threads} thread(s) | rays | Embree Mrays/CPU-s | own Mrays/CPU-s | ratio | Embree hits | own hits |");
+    println!(
+        "\n| {threads} thread(s) | rays | Embree Mrays/CPU-s | own Mrays/CPU-s | ratio | Embree hits | own hits |"
+    );
     println!("|---|---|---|---|---|---|---|");
     let mut log_sum = 0.0;
     for RaySet { name, rays, any } in sets {

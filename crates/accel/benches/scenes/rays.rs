@@ -39,8 +39,8 @@ pub(crate) fn ray_sets(mesh: &Mesh, bvh: &Bvh, side: u32) -> Vec<RaySet> {
 
 fn camera(side: u32) -> Vec<Ray> {
     let tiles = side / 8;
-    let pixels = (0..tiles * tiles)
-        .flat_map(|tile| (0..64).map(move |k| (tile % tiles * 8 + k % 8, tile / tiles * 8 + k / 8)));
+    let pixels =
+        (0..tiles * tiles).flat_map(|tile| (0..64).map(move |k| (tile % tiles * 8 + k % 8, tile / tiles * 8 + k / 8)));
     let screen = |i: u32| (i as f32 + 0.5) / side as f32 * 2.0 - 1.0;
     pixels
         .map(|(x, y)| Ray::new(Vec3::new(0.0, 0.0, 3.5), Vec3::new(screen(x), -screen(y), -2.6).normalize()))

@@ -6,7 +6,7 @@ use super::refs::{Bounds, Ref, xyz};
 use glam::Vec4;
 use rayon::prelude::*;
 
-/// Bins per axis.
+/// Most bins per axis.
 const BINS: usize = 16;
 /// Ranges longer than this are binned by several threads.
 const PARALLEL: usize = 1 << 16;
@@ -24,15 +24,24 @@ type Bins = [[Bin; BINS]; 3];
 struct Grid {
     origin: Vec4,
     scale: Vec4,
+    /// Bins per axis: fewer for few references, as clearing and sweeping them then costs more than filling.
+    bins: usize,
 }
 
 impl Grid {
-    fn new(centres: &Bounds) -> Self {
+    fn new(centres: &Bounds, count: usize) -> Self {
+        let bins = if count >= 32 {
+            BINS
+        } else if count >= 6 {
+            BINS / 2
+        } else {
+            BINS / 4
+        };
         let extent = xyz(centres.hi - centres.lo);
-        let scale = extent.to_array().map(|e| if e > 0.0 { (BINS as f32 * 0.9999) / e } else { 0.0 });
+        let scale = extent.to_array().map(|e| if e > 0.0 { (bins as f32 * 0.9999) / e } else { 0.0 });
         // A subnormal extent makes the quotient infinite.
         let scale = scale.map(|s| if s.is_finite() { s } else { 0.0 });
-        Self { origin: centres.lo, scale: Vec4::from(scale) }
+        Self { origin: centres.lo, scale: Vec4::from(scale), bins }
     }
 
     #[inline(always)]
@@ -57,9 +66,9 @@ pub(super) struct ObjectSplit {
 impl ObjectSplit {
     /// The cheapest split, or `None` if all centres coincide.
     pub(super) fn find(refs: &[Ref], centres: &Bounds) -> Option<Self> {
-        let grid = Grid::new(centres);
+        let grid = Grid::new(centres, refs.len());
         let bins = if refs.len() > PARALLEL {
-            refs.par_chunks(PARALLEL / 4).map(|chunk| fill(chunk, &grid)).reduce(empty, merge)
+            refs.par_chunks(PARALLEL / 4).map(|chunk| fill(chunk, &grid)).reduce(|| EMPTY, merge)
         } else {
             fill(refs, &grid)
         };
@@ -75,12 +84,10 @@ impl ObjectSplit {
     }
 }
 
-fn empty() -> Bins {
-    [[Bin { bounds: Bounds::EMPTY, count: 0 }; BINS]; 3]
-}
+const EMPTY: Bins = [[Bin { bounds: Bounds::EMPTY, count: 0 }; BINS]; 3];
 
 fn fill(refs: &[Ref], grid: &Grid) -> Bins {
-    let mut bins = empty();
+    let mut bins = EMPTY;
     for reference in refs {
         let bounds = reference.bounds();
         for (axis, bin) in grid.bins(reference).into_iter().enumerate() {
@@ -103,14 +110,14 @@ fn merge(mut a: Bins, b: Bins) -> Bins {
 fn sweep(bins: &[Bin; BINS], grid: Grid, axis: usize) -> Option<ObjectSplit> {
     let mut right = [(Bounds::EMPTY, 0.0); BINS];
     let (mut bounds, mut count) = (Bounds::EMPTY, 0);
-    for i in (1..BINS).rev() {
+    for i in (1..grid.bins).rev() {
         bounds.grow(&bins[i].bounds);
         count += bins[i].count;
         right[i] = (bounds, if count == 0 { f32::INFINITY } else { bounds.half_area() * count as f32 });
     }
     let mut best: Option<ObjectSplit> = None;
     (bounds, count) = (Bounds::EMPTY, 0);
-    for i in 1..BINS {
+    for i in 1..grid.bins {
         bounds.grow(&bins[i - 1].bounds);
         count += bins[i - 1].count;
         if count == 0 {

@@ -1,9 +1,11 @@
 //! The binary hierarchy: split ranges of references until each holds one.
 
 use super::{
+    Geometry, Quality,
     binning::ObjectSplit,
     collapse::{Forest, Plan, Size},
     refs::{Bounds, Owner, Ref},
+    spatial::SpatialSplit,
 };
 use crate::memory::large_vec;
 
@@ -31,89 +33,165 @@ struct Range<'a> {
     bounds: Bounds,
     centres: Bounds,
     depth: usize,
+    /// How many references may be added by cutting.
+    budget: usize,
+}
+
+impl Range<'_> {
+    /// The nodes a range can need at most.
+    fn room(&self) -> usize {
+        2 * (self.refs.len() + self.budget) - 1
+    }
+}
+
+/// What is the same for all ranges.
+struct Builder<'a> {
+    geometries: &'a [Geometry<'a>],
+    /// Spatial splits are looked for where the sides of the best object split share more surface than this, and more
+    /// than this part of the surface around both.
+    overlap: f32,
+    relative_overlap: f32,
 }
 
 /// The binary hierarchy over `refs`, which are reordered; empty if there are none.
-pub(super) fn build(refs: &mut [Ref]) -> Vec<Binary> {
+pub(super) fn build(refs: &mut [Ref], geometries: &[Geometry], quality: Quality) -> Vec<Binary> {
     if refs.is_empty() {
         return Vec::new();
     }
-    let blank = Binary { entry: refs[0], plan: Plan::PRIMITIVE, size: Size::default() };
-    let mut nodes = large_vec(2 * refs.len() - 1);
-    nodes.resize(2 * refs.len() - 1, blank);
-    let (bounds, centres) = measure(refs);
-    subdivide(Range { refs, bounds, centres, depth: 0 }, &mut nodes);
+    let side = Side::measure(refs);
+    // Stich et al. 2009 look for spatial splits from 1e-5 of the root's surface.
+    let (extra, overlap, relative_overlap) = match quality {
+        Quality::Default => (0.15, 1e-5, 0.15),
+        Quality::High => (1.0, 1e-6, 0.0),
+    };
+    let builder = Builder { geometries, overlap: side.bounds.half_area() * overlap, relative_overlap };
+    let budget = (refs.len() as f32 * extra) as usize;
+    let range = Range { bounds: side.bounds, centres: side.centres, refs, depth: 0, budget };
+    let blank = Binary { entry: range.refs[0], plan: Plan::PRIMITIVE, size: Size::default() };
+    let mut nodes = large_vec(range.room());
+    nodes.resize(range.room(), blank);
+    builder.subdivide(range, &mut nodes);
     nodes
 }
 
-/// The box around the references and the box around their doubled centres.
-fn measure(refs: &[Ref]) -> (Bounds, Bounds) {
-    refs.iter().fold((Bounds::EMPTY, Bounds::EMPTY), |(mut bounds, mut centres), r| {
-        bounds.grow(&r.bounds());
-        centres.grow_point(r.centre2());
-        (bounds, centres)
-    })
+/// What is known about one side of a split.
+#[derive(Clone, Copy)]
+struct Side {
+    bounds: Bounds,
+    /// The box around the doubled centres.
+    centres: Bounds,
+    /// Sum of half surfaces, by which the budget is shared.
+    weight: f32,
 }
 
-fn subdivide(range: Range, nodes: &mut [Binary]) -> Forest {
-    let half_area = range.bounds.half_area();
-    let (node, below) = nodes.split_first_mut().expect("a range has a node");
-    if let &mut [reference] = range.refs {
-        let forest = Forest::primitive(half_area, matches!(reference.owner(), Owner::Triangle { .. }));
-        *node = Binary { entry: reference, plan: Plan::PRIMITIVE, size: forest.size() };
-        return forest;
+impl Side {
+    const EMPTY: Self = Self { bounds: Bounds::EMPTY, centres: Bounds::EMPTY, weight: 0.0 };
+
+    #[inline(always)]
+    fn add(&mut self, reference: &Ref) {
+        let bounds = reference.bounds();
+        self.bounds.grow(&bounds);
+        self.centres.grow_point(reference.centre2());
+        self.weight += bounds.half_area();
     }
-    let bounds = range.bounds;
-    let (left, right) = split(range);
-    let (left_nodes, right_nodes) = below.split_at_mut(2 * left.refs.len() - 1);
-    let right_at = left_nodes.len() as u32 + 1;
-    let (left, right) = if left.refs.len() + right.refs.len() > PARALLEL {
-        rayon::join(|| subdivide(left, left_nodes), || subdivide(right, right_nodes))
-    } else {
-        (subdivide(left, left_nodes), subdivide(right, right_nodes))
-    };
-    let (forest, plan) = Forest::join(&left, &right, half_area);
-    *node = Binary { entry: Ref::numbered(&bounds, right_at), plan, size: forest.size() };
-    forest
+
+    fn measure(refs: &[Ref]) -> Self {
+        refs.iter().fold(Self::EMPTY, |mut side, reference| {
+            side.add(reference);
+            side
+        })
+    }
 }
 
-/// Divides a range of at least two references into two that hold at least one each.
-fn split(range: Range<'_>) -> (Range<'_>, Range<'_>) {
-    let Range { refs, centres, depth, .. } = range;
-    let depth = depth + 1;
-    let found = if depth < FAIR_DEPTH { ObjectSplit::find(refs, &centres) } else { None };
-    if let Some(split) = found {
-        let (middle, left_centres, right_centres) = partition(refs, &split);
-        if middle > 0 && middle < refs.len() {
-            let (left, right) = refs.split_at_mut(middle);
-            return (
-                Range { refs: left, bounds: split.left, centres: left_centres, depth },
-                Range { refs: right, bounds: split.right, centres: right_centres, depth },
-            );
+impl Builder<'_> {
+    fn subdivide(&self, range: Range, nodes: &mut [Binary]) -> Forest {
+        let bounds = range.bounds;
+        if let &mut [reference] = range.refs {
+            let is_triangle = matches!(reference.owner(), Owner::Triangle { .. });
+            let forest = Forest::primitive(bounds.half_area(), is_triangle);
+            nodes[0] = Binary { entry: reference, plan: Plan::PRIMITIVE, size: forest.size() };
+            return forest;
         }
+        let splittable = range.refs.len() > 2 && range.depth < FAIR_DEPTH;
+        let object = if splittable { ObjectSplit::find(range.refs, &range.centres) } else { None };
+        if let Some((mut left, mut right)) = self.spatial(&range, object.as_ref()) {
+            let budget = range.budget + range.refs.len() - left.len() - right.len();
+            let sides = [Side::measure(&left), Side::measure(&right)];
+            return self.join(children(&mut left, &mut right, sides, range.depth, budget), &bounds, nodes);
+        }
+        let (middle, sides) = match object {
+            Some(split) => partition(range.refs, &split),
+            None => (0, [Side::EMPTY; 2]),
+        };
+        let halve = middle == 0 || middle == range.refs.len();
+        let middle = if halve { range.refs.len() / 2 } else { middle };
+        let (left, right) = range.refs.split_at_mut(middle);
+        let sides = if halve { [Side::measure(left), Side::measure(right)] } else { sides };
+        self.join(children(left, right, sides, range.depth, range.budget), &bounds, nodes)
     }
-    let (left, right) = refs.split_at_mut(refs.len() / 2);
-    let sides = [measure(left), measure(right)];
-    (
-        Range { refs: left, bounds: sides[0].0, centres: sides[0].1, depth },
-        Range { refs: right, bounds: sides[1].0, centres: sides[1].1, depth },
-    )
+
+    /// Both sides of a spatial split, if one is worth looking for and cheaper than the object split.
+    fn spatial(&self, range: &Range, object: Option<&ObjectSplit>) -> Option<(Vec<Ref>, Vec<Ref>)> {
+        let object = object?;
+        let shared = object.left.shared_half_area(&object.right);
+        let worth_it = self.overlap.max(self.relative_overlap * range.bounds.half_area());
+        if range.budget == 0 || shared <= worth_it {
+            return None;
+        }
+        let split = SpatialSplit::find(range.refs, &range.bounds, self.geometries, range.budget)?;
+        if split.cost >= object.cost {
+            return None;
+        }
+        let (left, right) = split.divide(range.refs, self.geometries);
+        let fits = left.len() + right.len() <= range.refs.len() + range.budget;
+        (fits && !left.is_empty() && !right.is_empty()).then_some((left, right))
+    }
+
+    /// Builds both sides and writes the node above them.
+    fn join(&self, [left, right]: [Range; 2], bounds: &Bounds, nodes: &mut [Binary]) -> Forest {
+        let (node, below) = nodes.split_first_mut().expect("a range has a node");
+        let (left_nodes, right_nodes) = below.split_at_mut(left.room());
+        let right_at = left_nodes.len() as u32 + 1;
+        let (left, right) = if left.refs.len() + right.refs.len() > PARALLEL {
+            rayon::join(|| self.subdivide(left, left_nodes), || self.subdivide(right, right_nodes))
+        } else {
+            (self.subdivide(left, left_nodes), self.subdivide(right, right_nodes))
+        };
+        let (forest, plan) = Forest::join(&left, &right, bounds.half_area());
+        *node = Binary { entry: Ref::numbered(bounds, right_at), plan, size: forest.size() };
+        forest
+    }
 }
 
-/// Moves the left side to the front; returns its length and the boxes around the doubled centres of both sides.
-fn partition(refs: &mut [Ref], split: &ObjectSplit) -> (usize, Bounds, Bounds) {
-    let (mut left, mut right) = (Bounds::EMPTY, Bounds::EMPTY);
+/// The ranges below one at `depth`, which share its budget by the surface of their references.
+fn children<'a>(
+    left: &'a mut [Ref],
+    right: &'a mut [Ref],
+    sides: [Side; 2],
+    depth: usize,
+    budget: usize,
+) -> [Range<'a>; 2] {
+    let share = f64::from(sides[0].weight) / (f64::from(sides[0].weight) + f64::from(sides[1].weight));
+    let left_budget = ((budget as f64 * share) as usize).min(budget);
+    let range =
+        |refs, side: Side, budget| Range { refs, bounds: side.bounds, centres: side.centres, depth: depth + 1, budget };
+    [range(left, sides[0], left_budget), range(right, sides[1], budget - left_budget)]
+}
+
+/// Moves the left side to the front; returns its length and what is known about both sides.
+fn partition(refs: &mut [Ref], split: &ObjectSplit) -> (usize, [Side; 2]) {
+    let (mut left, mut right) = (Side::EMPTY, Side::EMPTY);
     let (mut i, mut j) = (0, refs.len());
     while i < j {
         let reference = refs[i];
         if split.is_left(&reference) {
-            left.grow_point(reference.centre2());
+            left.add(&reference);
             i += 1;
         } else {
-            right.grow_point(reference.centre2());
+            right.add(&reference);
             j -= 1;
             refs.swap(i, j);
         }
     }
-    (i, left, right)
+    (i, [left, right])
 }

@@ -89,10 +89,8 @@ impl Forest {
             Choice { cost, size: left.best[best - 1].size.plus(right.best[roots - best - 1].size) }
         };
         let inner = choice(8);
-        let inner = Choice {
-            cost: inner.cost + half_area * NODE_COST,
-            size: inner.size.plus(Size { nodes: 1, blocks: 0 }),
-        };
+        let inner =
+            Choice { cost: inner.cost + half_area * NODE_COST, size: inner.size.plus(Size { nodes: 1, blocks: 0 }) };
         let count = left.count + right.count;
         let blocks = left.blocks && right.blocks;
         let in_leaf = count.div_ceil(LANES as u32);

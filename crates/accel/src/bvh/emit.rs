@@ -90,8 +90,12 @@ impl Emitter<'_> {
         let mut roots = Vec::with_capacity(WIDTH);
         let plan = self.binary[job.at].plan;
         self.split(job.at, plan.left_roots(WIDTH), WIDTH, &mut roots);
-        let area = |at: &usize| self.binary[*at].entry.bounds().half_area();
-        roots.sort_by(|a, b| area(a).total_cmp(&area(b)));
+        // Rays that ask for any hit take the last child first: small subtrees are cheap to try, large boxes likely hit.
+        roots.sort_by(|&a, &b| {
+            let (a, b) = (&self.binary[a], &self.binary[b]);
+            let area = |node: &Binary| node.entry.bounds().half_area();
+            b.size.blocks.cmp(&a.size.blocks).then(area(a).total_cmp(&area(b)))
+        });
         let own = job.nodes.take(1);
         let mut node = Node::EMPTY;
         let mut inner = Vec::with_capacity(WIDTH);
@@ -153,10 +157,7 @@ impl Emitter<'_> {
         let mut block = Block::EMPTY;
         for (lane, owner) in owners.iter().enumerate() {
             let &Owner::Triangle { geometry, primitive } = owner else { unreachable!("only triangles share a leaf") };
-            let Geometry::Triangles { positions, indices } = self.geometries[geometry as usize] else {
-                unreachable!("only meshes own triangles")
-            };
-            let corners = indices[primitive as usize].map(|i| positions[i as usize]);
+            let corners = self.geometries[geometry as usize].corners(primitive);
             block.set(lane, corners, geometry, primitive);
         }
         block

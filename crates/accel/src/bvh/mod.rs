@@ -11,6 +11,7 @@
 
 mod binning;
 mod build;
+mod clip;
 mod collapse;
 mod emit;
 mod instance;
@@ -18,6 +19,7 @@ mod node;
 mod refs;
 mod simd;
 mod slabs;
+mod spatial;
 mod sphere;
 mod stack;
 mod traverse;
@@ -53,6 +55,14 @@ pub enum Geometry<'a> {
         /// Radius, positive.
         radius: f32,
     },
+}
+
+impl Geometry<'_> {
+    /// The corners of a triangle; only for meshes.
+    fn corners(&self, primitive: u32) -> [Vec3; 3] {
+        let Self::Triangles { positions, indices } = self else { unreachable!("only meshes own triangles") };
+        indices[primitive as usize].map(|i| positions[i as usize])
+    }
 }
 
 /// How long to build for.
@@ -207,7 +217,7 @@ impl Counts {
 
 impl Part {
     /// The hierarchy over some geometry and over ready-made references (to instances).
-    fn build(geometries: &[Geometry], mut refs: Vec<Ref>, _quality: Quality) -> Self {
+    fn build(geometries: &[Geometry], mut refs: Vec<Ref>, quality: Quality) -> Self {
         let collected = refs::collect(geometries);
         let counts = Counts {
             triangles: collected.refs.len() - collected.spheres.len(),
@@ -219,7 +229,7 @@ impl Part {
         assert!(refs.len() < Child::MAX_INDEX, "a hierarchy holds at most 2^28 primitives");
         let bounds = refs.iter().fold(Bounds::EMPTY, |all, r| all.union(&r.bounds()));
         let bounds = Aabb { min: bounds.lo.xyz(), max: bounds.hi.xyz() };
-        let binary = build::build(&mut refs);
+        let binary = build::build(&mut refs, geometries, quality);
         Self { wide: emit::emit(&binary, geometries), spheres: collected.spheres, bounds, counts }
     }
 }

@@ -20,6 +20,8 @@ pub(super) enum Leaf {
     Sphere(u32),
     /// One instance of an object.
     Instance(u32),
+    /// On the stack only: what lies below belongs to the world again.
+    LeaveInstance,
 }
 
 impl Child {
@@ -27,7 +29,7 @@ impl Child {
     const INDEX: u32 = (1 << 28) - 1;
     const SPHERE: u32 = 6;
     const INSTANCE: u32 = 7;
-    /// On the stack only: what was below belongs to world space again.
+    /// The word of [`Leaf::LeaveInstance`].
     pub(super) const LEAVE_INSTANCE: Self = Self(u32::MAX);
     /// Most triangle blocks one leaf can name.
     pub(super) const MAX_BLOCKS: usize = 6;
@@ -64,7 +66,7 @@ impl Child {
 
     /// The index of the first block, sphere or instance.
     #[inline(always)]
-    const fn index(self) -> u32 {
+    pub(super) const fn index(self) -> u32 {
         self.0 & Self::INDEX
     }
 
@@ -73,6 +75,7 @@ impl Child {
     pub(super) const fn leaf(self) -> Leaf {
         match self.0 >> 28 & 7 {
             Self::SPHERE => Leaf::Sphere(self.index()),
+            Self::INSTANCE if self.0 == Self::LEAVE_INSTANCE.0 => Leaf::LeaveInstance,
             Self::INSTANCE => Leaf::Instance(self.index()),
             blocks => Leaf::Blocks { first: self.index(), count: blocks + 1 },
         }
@@ -131,7 +134,7 @@ impl Child {
             match self.leaf() {
                 Leaf::Blocks { .. } => by.blocks,
                 Leaf::Sphere(_) => by.spheres,
-                Leaf::Instance(_) => 0,
+                Leaf::Instance(_) | Leaf::LeaveInstance => 0,
             }
         };
         Self(self.0 + step)

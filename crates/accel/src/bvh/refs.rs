@@ -54,6 +54,14 @@ impl Ref {
         }
     }
 
+    /// The same owner with another box.
+    pub(super) fn moved_to(&self, bounds: &Bounds) -> Self {
+        Self {
+            lo_and_primitive: bounds.lo.with_w(self.lo_and_primitive.w),
+            hi_and_owner: bounds.hi.with_w(self.hi_and_owner.w),
+        }
+    }
+
     /// A box that carries a number instead of an owner.
     pub(super) fn numbered(bounds: &Bounds, number: u32) -> Self {
         Self { lo_and_primitive: bounds.lo, hi_and_owner: bounds.hi.with_w(f32::from_bits(number)) }

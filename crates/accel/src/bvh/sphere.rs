@@ -12,22 +12,12 @@ pub(super) struct Sphere {
 }
 
 impl Sphere {
-    /// The nearest accepted hit strictly between `ray.tmin` and `tmax`, from outside or inside.
-    #[inline(always)]
-    pub(super) fn nearest(&self, ray: &Ray, tmax: f32, instance: u32, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        let tmin = ray.tmin.max(0.0);
-        self.roots(ray)?
-            .map(|t| Hit { t: t as f32, u: 0.0, v: 0.0, geometry: self.geometry, primitive: 0, instance })
-            .into_iter()
-            .find(|hit| hit.t > tmin && hit.t < tmax && accept(hit))
-    }
-
     /// Both parameters at which the line of the ray meets the surface, in rising order.
     ///
     /// In f64 throughout: the discriminant is taken from the part of the centre's offset perpendicular to the ray, and
     /// the smaller root from the product of the roots, so that neither far nor tiny spheres cancel (Haines et al.
     /// 2019, "Precision Improvements for Ray/Sphere Intersection").
-    fn roots(&self, ray: &Ray) -> Option<[f64; 2]> {
+    pub(super) fn roots(&self, ray: &Ray) -> Option<[f32; 2]> {
         let (o, d, centre) = (ray.o.as_dvec3(), ray.d.as_dvec3(), self.centre.as_dvec3());
         let radius = f64::from(self.radius);
         let to_origin: DVec3 = o - centre;
@@ -42,6 +32,10 @@ impl Sphere {
         let distance = to_origin.length();
         let c = (distance - radius) * (distance + radius);
         let (t0, t1) = (c / q, q / a);
-        Some([t0.min(t1), t0.max(t1)])
+        Some([t0.min(t1) as f32, t0.max(t1) as f32])
+    }
+
+    pub(super) fn hit(&self, t: f32, instance: u32) -> Hit {
+        Hit { t, u: 0.0, v: 0.0, geometry: self.geometry, primitive: 0, instance }
     }
 }

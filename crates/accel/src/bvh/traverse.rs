@@ -2,16 +2,18 @@
 
 use super::{
     Tables,
-    node::{Child, Leaf},
+    node::{Child, Leaf, WIDTH},
     simd::{Simd, SimdLevel, portable::Portable},
     slabs::Slabs,
     stack::Stack,
     triangle::{self, Shear},
 };
 use crate::{Hit, Ray};
+use std::ops::Range;
 
 impl Tables {
     /// The nearest accepted hit, or with `ANY` the first one found.
+    #[inline]
     pub(super) fn trace<const ANY: bool, F: Fn(&Hit) -> bool>(
         &self,
         level: SimdLevel,
@@ -19,15 +21,13 @@ impl Tables {
         accept: F,
     ) -> Option<Hit> {
         match level {
-            SimdLevel::Portable => traverse::<_, ANY, F>(Portable, self, ray, accept),
             // SAFETY: `Bvh` only holds a level that the processor was found to have.
             #[cfg(target_arch = "x86_64")]
-            SimdLevel::Avx2 => unsafe { trace_avx2::<ANY, F>(self, ray, accept) },
+            SimdLevel::Avx512 => unsafe { trace_avx512::<ANY, F>(self, ray, accept) },
             // SAFETY: as above.
             #[cfg(target_arch = "x86_64")]
-            SimdLevel::Avx512 => unsafe { trace_avx512::<ANY, F>(self, ray, accept) },
-            #[cfg(not(target_arch = "x86_64"))]
-            SimdLevel::Avx2 | SimdLevel::Avx512 => traverse::<_, ANY, F>(Portable, self, ray, accept),
+            SimdLevel::Avx2 => unsafe { trace_avx2::<ANY, F>(self, ray, accept) },
+            _ => walk::<_, ANY, F>(Portable, self, ray, accept),
         }
     }
 }
@@ -37,7 +37,7 @@ impl Tables {
 fn trace_avx2<const ANY: bool, F: Fn(&Hit) -> bool>(tables: &Tables, ray: &Ray, accept: F) -> Option<Hit> {
     // SAFETY: this function is only entered on a processor with these features.
     let token = unsafe { super::simd::x86::Avx2::new_unchecked() };
-    traverse::<_, ANY, F>(token, tables, ray, accept)
+    walk::<_, ANY, F>(token, tables, ray, accept)
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -45,112 +45,167 @@ fn trace_avx2<const ANY: bool, F: Fn(&Hit) -> bool>(tables: &Tables, ray: &Ray, 
 fn trace_avx512<const ANY: bool, F: Fn(&Hit) -> bool>(tables: &Tables, ray: &Ray, accept: F) -> Option<Hit> {
     // SAFETY: this function is only entered on a processor with these features.
     let token = unsafe { super::simd::x86::Avx512::new_unchecked() };
-    traverse::<_, ANY, F>(token, tables, ray, accept)
+    walk::<_, ANY, F>(token, tables, ray, accept)
 }
 
-/// A depth-first walk, nearest child first. Each round of the outer loop is a stretch in one space: the world, or an
-/// object entered through an instance.
-#[inline(always)]
-fn traverse<S: Simd, const ANY: bool, F: Fn(&Hit) -> bool>(
+/// The state of one query.
+struct Walk<'a, S, F> {
     s: S,
-    tables: &Tables,
-    world_ray: &Ray,
+    tables: &'a Tables,
     accept: F,
-) -> Option<Hit> {
-    if !world_ray.is_usable() {
+    /// The ray in the space that is being walked: the world's, or that of an instance's object.
+    ray: Ray,
+    instance: u32,
+    tmin: f32,
+    /// Where the nearest hit so far lies, or the end of the ray.
+    tmax: f32,
+    best: Option<Hit>,
+}
+
+/// A depth-first walk, nearest child first. Each round of the outer loop is a stretch in one space, for which the ray
+/// is prepared once.
+#[inline(always)]
+fn walk<S: Simd, const ANY: bool, F: Fn(&Hit) -> bool>(s: S, tables: &Tables, ray: &Ray, accept: F) -> Option<Hit> {
+    if !ray.is_usable() {
         return None;
     }
-    let tmin = if world_ray.tmin > 0.0 { world_ray.tmin } else { 0.0 };
-    let tmin8 = s.splat8(tmin);
-    let mut tmax = world_ray.tmax;
-    let mut best = None;
+    let tmin = if ray.tmin > 0.0 { ray.tmin } else { 0.0 };
+    let instance = Hit::NO_INSTANCE;
+    let mut walk = Walk { s, tables, accept, ray: *ray, instance, tmin, tmax: ray.tmax, best: None };
     let mut stack = Stack::new();
     let mut child = Child::inner(0);
-    let mut ray = *world_ray;
-    let mut instance = Hit::NO_INSTANCE;
     'space: loop {
-        let slabs = Slabs::new(s, ray.o, ray.d);
-        let shear = Shear::new(s, ray.o, ray.d);
-        let mut tmax8 = s.splat8(tmax);
+        let slabs = Slabs::new(s, walk.ray.o, walk.ray.d);
+        let shear = Shear::new(s, walk.ray.o, walk.ray.d);
         loop {
-            if child.is_inner() {
-                debug_assert!(child.node() < tables.nodes.len());
-                // SAFETY: the builder only writes indices of nodes that exist.
-                let node = unsafe { tables.nodes.get_unchecked(child.node()) };
-                let (near, mask) = slabs.enter(s, node, tmin8, tmax8);
-                if mask != 0 {
-                    if mask & (mask - 1) == 0 {
-                        child = node.children[mask.trailing_zeros() as usize & 7];
-                    } else if ANY {
-                        child = s.push_any(&mut stack, &node.children, mask);
-                    } else {
-                        child = s.push_sorted(&mut stack, &node.children, near, mask);
+            match walk.descend::<ANY>(&mut stack, &slabs, child).map(Child::leaf) {
+                None => {}
+                Some(Leaf::Blocks { first, count }) => walk.blocks::<ANY>(&shear, first..first + count),
+                Some(Leaf::Sphere(index)) => walk.sphere(index),
+                Some(Leaf::Instance(index)) => {
+                    if let Some(root) = walk.enter(index) {
+                        stack.push(0.0, Child::LEAVE_INSTANCE);
+                        child = root;
+                        continue 'space;
                     }
-                    continue;
                 }
-            } else if child == Child::LEAVE_INSTANCE {
-                ray = *world_ray;
-                instance = Hit::NO_INSTANCE;
-                match pop::<ANY>(&mut stack, tmax) {
-                    Some(next) => child = next,
-                    None => return best,
-                }
-                continue 'space;
-            } else {
-                match child.leaf() {
-                    Leaf::Blocks { first, count } => {
-                        for index in first..first + count {
-                            debug_assert!((index as usize) < tables.blocks.len());
-                            // SAFETY: the builder only writes ranges of blocks that exist.
-                            let block = unsafe { tables.blocks.get_unchecked(index as usize) };
-                            let Some(lanes) = triangle::intersect(s, block, &shear, tmin, tmax) else { continue };
-                            let mut mask = lanes.mask;
-                            while mask != 0 {
-                                let lane = mask.trailing_zeros() as usize & 3;
-                                mask &= mask - 1;
-                                if lanes.t[lane] < tmax {
-                                    let hit = lanes.hit(block, lane, instance);
-                                    if accept(&hit) {
-                                        if ANY {
-                                            return Some(hit);
-                                        }
-                                        tmax = hit.t;
-                                        best = Some(hit);
-                                    }
-                                }
-                            }
-                        }
-                        tmax8 = s.splat8(tmax);
+                Some(Leaf::LeaveInstance) => {
+                    (walk.ray, walk.instance) = (*ray, Hit::NO_INSTANCE);
+                    match pop::<ANY>(&mut stack, walk.tmax) {
+                        Some(next) => child = next,
+                        None => return walk.best,
                     }
-                    Leaf::Sphere(index) => {
-                        let sphere = &tables.spheres[index as usize];
-                        if let Some(hit) = sphere.nearest(&ray, tmax, instance, &accept) {
-                            if ANY {
-                                return Some(hit);
-                            }
-                            tmax = hit.t;
-                            best = Some(hit);
-                            tmax8 = s.splat8(tmax);
-                        }
-                    }
-                    Leaf::Instance(index) => {
-                        let placed = &tables.instances[index as usize];
-                        let local = placed.localise(&ray);
-                        if local.is_usable() {
-                            stack.push(0.0, Child::LEAVE_INSTANCE);
-                            ray = local;
-                            instance = placed.id;
-                            child = Child::inner(placed.root);
-                            continue 'space;
-                        }
-                    }
+                    continue 'space;
                 }
             }
-            match pop::<ANY>(&mut stack, tmax) {
+            if ANY && walk.best.is_some() {
+                return walk.best;
+            }
+            match pop::<ANY>(&mut stack, walk.tmax) {
                 Some(next) => child = next,
-                None => return best,
+                None => return walk.best,
             }
         }
+    }
+}
+
+impl<S: Simd, F: Fn(&Hit) -> bool> Walk<'_, S, F> {
+    /// Follows the nearest child from `child` down to a leaf and leaves the others on the stack; `None` at a node that
+    /// the ray misses.
+    #[inline(always)]
+    fn descend<const ANY: bool>(&self, stack: &mut Stack, slabs: &Slabs<S>, mut child: Child) -> Option<Child> {
+        let s = self.s;
+        let (tmin, tmax) = (s.splat8(self.tmin), s.splat8(self.tmax));
+        while child.is_inner() {
+            debug_assert!(child.node() < self.tables.nodes.len());
+            // SAFETY: the builder only writes indices of nodes that exist.
+            let node = unsafe { self.tables.nodes.get_unchecked(child.node()) };
+            let (near, mask) = slabs.enter(s, node, tmin, tmax);
+            if mask == 0 {
+                return None;
+            }
+            if mask & (mask - 1) == 0 {
+                child = node.children[mask.trailing_zeros() as usize % WIDTH];
+                continue;
+            }
+            self.prefetch(&node.children, mask);
+            child = if ANY {
+                s.push_any(stack, &node.children, mask)
+            } else {
+                s.push_sorted(stack, &node.children, near, mask)
+            };
+        }
+        Some(child)
+    }
+
+    /// Asks for the memory of the children in `mask`, most of which will be visited. Spheres and instances, whose
+    /// tables are small, are taken for blocks.
+    #[inline(always)]
+    fn prefetch(&self, children: &[Child; WIDTH], mut mask: u32) {
+        while mask != 0 {
+            let child = children[mask.trailing_zeros() as usize % WIDTH];
+            mask &= mask - 1;
+            let start: *const u8 = if child.is_inner() {
+                self.tables.nodes.as_ptr().wrapping_add(child.node()).cast()
+            } else {
+                self.tables.blocks.as_ptr().wrapping_add(child.index() as usize).cast()
+            };
+            for line in 0..4 {
+                self.s.prefetch(start.wrapping_add(64 * line));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn blocks<const ANY: bool>(&mut self, shear: &Shear<S>, range: Range<u32>) {
+        for index in range {
+            debug_assert!((index as usize) < self.tables.blocks.len());
+            // SAFETY: the builder only writes ranges of blocks that exist.
+            let block = unsafe { self.tables.blocks.get_unchecked(index as usize) };
+            let Some(lanes) = triangle::intersect(self.s, block, shear, self.tmin, self.tmax) else { continue };
+            let mut mask = lanes.mask;
+            while mask != 0 {
+                let lane = mask.trailing_zeros() as usize % triangle::LANES;
+                mask &= mask - 1;
+                if lanes.t[lane] < self.tmax {
+                    self.offer(lanes.hit(block, lane, self.instance));
+                    if ANY && self.best.is_some() {
+                        return;
+                    }
+                }
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn sphere(&mut self, index: u32) {
+        let sphere = &self.tables.spheres[index as usize];
+        let Some(roots) = sphere.roots(&self.ray) else { return };
+        for t in roots {
+            if t > self.tmin && t < self.tmax {
+                self.offer(sphere.hit(t, self.instance));
+            }
+        }
+    }
+
+    /// Takes a hit that is nearer than all before, if the caller lets it count.
+    #[inline(always)]
+    fn offer(&mut self, hit: Hit) {
+        if (self.accept)(&hit) {
+            self.tmax = hit.t;
+            self.best = Some(hit);
+        }
+    }
+
+    /// Moves the ray into an instance and gives the root of its object; `None` if the ray does not survive that.
+    #[inline(always)]
+    fn enter(&mut self, index: u32) -> Option<Child> {
+        let placed = &self.tables.instances[index as usize];
+        let local = placed.localise(&self.ray);
+        local.is_usable().then(|| {
+            (self.ray, self.instance) = (local, placed.id);
+            Child::inner(placed.root)
+        })
     }
 }
 
