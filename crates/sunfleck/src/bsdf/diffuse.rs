@@ -48,7 +48,7 @@ impl Scatter for Diffuse {
     }
     #[inline]
     fn sample(&self, wo: Local, _: f32, u: Vec2, _: Transport) -> Option<BsdfSample> {
-        if self.reflectance.is_black() {
+        if self.reflectance.is_black() || wo.cos_theta() == 0.0 {
             return None;
         }
         let mut wi = square_to_cosine_hemisphere(u);

@@ -4,9 +4,33 @@
 //! value with the textures looked up, which a light vertex or a gather point may keep for a whole pass.
 //! To add a model: write `bsdf/<name>.rs` with its material and its closure (implementing [`Scatter`] and [`Model`]), and
 //! add one line to `models!` below; the contract tests run over the whole list.
+//!
+//! The mathematics that models share is in [`fresnel`] (how much a boundary reflects), [`ggx`] (rough boundaries) and
+//! `cosine_lobe` (Phong's highlights).
+mod black;
+mod conductor;
+mod cook_torrance;
+mod cosine_lobe;
+mod dielectric;
 mod diffuse;
+pub mod fresnel;
+pub mod ggx;
+mod mirror;
+mod nrenderer_phong;
+mod phong;
+mod rough_conductor;
+mod rough_dielectric;
 
+pub use black::{Black, BlackMaterial};
+pub use conductor::{Conductor, ConductorMaterial};
+pub use cook_torrance::{CookTorrance, CookTorranceMaterial};
+pub use dielectric::{Dielectric, DielectricMaterial};
 pub use diffuse::{Diffuse, DiffuseMaterial};
+pub use mirror::{Mirror, MirrorMaterial};
+pub use nrenderer_phong::{NRendererPhong, NRendererPhongMaterial};
+pub use phong::{Phong, PhongMaterial};
+pub use rough_conductor::{RoughConductor, RoughConductorMaterial};
+pub use rough_dielectric::{RoughDielectric, RoughDielectricMaterial};
 
 use crate::{
     math::Local,
@@ -40,7 +64,21 @@ pub struct BsdfSample {
     pub eta: f32,
 }
 
-/// The contract of every closure; checked for each model in `tests/bsdf_contract.rs`.
+impl BsdfSample {
+    /// The mirror reflection of `wo` as the only lobe; `None` if it carries nothing or `wo` lies in the plane.
+    #[inline]
+    fn specular(wo: Local, weight: Spectrum) -> Option<Self> {
+        let carries = wo.cos_theta() != 0.0 && !weight.is_black();
+        carries.then(|| Self { wi: wo.mirrored(), weight, pdf: 1.0, delta: true, eta: 1.0 })
+    }
+    /// A direction from lobes with a density, on `wo`'s side; `None` if it carries nothing.
+    #[inline]
+    fn scattered(wi: Local, weight: Spectrum, pdf: f32) -> Option<Self> {
+        (pdf > 0.0 && !weight.is_black()).then_some(Self { wi, weight, pdf, delta: false, eta: 1.0 })
+    }
+}
+
+/// The contract of every closure; checked for each model in `tests/bsdf_contract`.
 pub trait Scatter {
     /// `f(wo, wi)` in 1/sr, *without* the cosine. Zero for delta lobes.
     fn eval(&self, wo: Local, wi: Local, mode: Transport) -> Spectrum;
@@ -82,8 +120,8 @@ pub struct TextureId(pub u32);
 
 /// A material as the scene stores it.
 pub trait Model {
-    /// What it is at a hit.
-    type Closure: Scatter + Copy;
+    /// What it is at a hit: its own closure, or [`Bsdf`] if it is one of several.
+    type Closure: Scatter + Copy + Into<Bsdf>;
     /// Word for lists and messages.
     const NAME: &'static str;
     /// One line for help and manual.
@@ -121,7 +159,7 @@ macro_rules! models {
             /// The closure at a hit.
             #[inline]
             pub fn resolve(&self, at: &Lookup) -> Bsdf {
-                match self { $(Self::$closure(m) => Bsdf::$closure(m.resolve(at))),* }
+                match self { $(Self::$closure(m) => m.resolve(at).into()),* }
             }
             /// The model's word.
             pub fn name(&self) -> &'static str {
@@ -153,4 +191,22 @@ macro_rules! models {
     };
 }
 
-models![Diffuse / DiffuseMaterial];
+models![
+    Diffuse / DiffuseMaterial,
+    Mirror / MirrorMaterial,
+    Dielectric / DielectricMaterial,
+    RoughDielectric / RoughDielectricMaterial,
+    Conductor / ConductorMaterial,
+    RoughConductor / RoughConductorMaterial,
+    Phong / PhongMaterial,
+    NRendererPhong / NRendererPhongMaterial,
+    CookTorrance / CookTorranceMaterial,
+    Black / BlackMaterial,
+];
+
+/// `w` in the frame of a surface turned over, if need be, so that `wo` is on its upper side. Models that look the same from
+/// both sides work in this frame; it is its own inverse.
+#[inline]
+fn seen_from(wo: Local, w: Local) -> Local {
+    Local(w.0.with_z(w.0.z * 1f32.copysign(wo.0.z)))
+}

@@ -1,0 +1,44 @@
+//! A surface that swallows all light.
+use super::{BsdfSample, Lookup, Model, Scatter, TextureId, Transport};
+use crate::{math::Local, spectrum::Spectrum};
+use glam::Vec2;
+
+/// The body of a light, or a beam stop.
+#[derive(Clone, Copy, Debug)]
+pub struct BlackMaterial;
+
+impl Model for BlackMaterial {
+    type Closure = Black;
+    const NAME: &'static str = "black";
+    const ABOUT: &'static str = "absorbs all light; for the bodies of lamps, which only emit";
+    #[inline]
+    fn resolve(&self, _: &Lookup) -> Black {
+        Black
+    }
+    fn textures(&self) -> Vec<TextureId> {
+        Vec::new()
+    }
+}
+
+/// Scatters nothing: every path ends here.
+#[derive(Clone, Copy, Debug)]
+pub struct Black;
+
+impl Scatter for Black {
+    #[inline]
+    fn eval(&self, _: Local, _: Local, _: Transport) -> Spectrum {
+        Spectrum::BLACK
+    }
+    #[inline]
+    fn pdf(&self, _: Local, _: Local) -> f32 {
+        0.0
+    }
+    #[inline]
+    fn sample(&self, _: Local, _: f32, _: Vec2, _: Transport) -> Option<BsdfSample> {
+        None
+    }
+    #[inline]
+    fn is_connectible(&self) -> bool {
+        false
+    }
+}

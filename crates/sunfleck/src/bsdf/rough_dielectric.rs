@@ -1,0 +1,137 @@
+//! Ground or frosted glass: a GGX landscape of clear facets.
+use super::{
+    Bsdf, BsdfSample, Dielectric, DielectricMaterial, Lookup, Model, Scatter, TextureId, Transport, fresnel,
+    ggx::{Ggx, reflect_up},
+    seen_from,
+};
+use crate::{math::Local, spectrum::Spectrum};
+use glam::Vec2;
+
+/// A rough boundary between two clear media. Light that would meet a second facet is lost, the more the rougher.
+#[derive(Clone, Copy, Debug)]
+pub struct RoughDielectricMaterial {
+    /// The media and tints.
+    pub glass: DielectricMaterial,
+    /// GGX roughness in [0, 1]. The boundary is taken as smooth below [`Ggx::MIN_ALPHA`], and also where the blur it
+    /// gives to refracted light, `alpha·|eta − 1|`, is below 10⁻⁴ (nearly equal indices: f32 could not tell which facet
+    /// had bent the light).
+    pub alpha: f32,
+}
+
+impl Model for RoughDielectricMaterial {
+    type Closure = Bsdf;
+    const NAME: &'static str = "roughdielectric";
+    const ABOUT: &'static str =
+        "frosted glass: `eta` as for dielectric, GGX roughness `alpha` (0 clear, 0.1 satin, 0.5 milky)";
+    #[inline]
+    fn resolve(&self, at: &Lookup) -> Bsdf {
+        let glass = self.glass.resolve(at);
+        if self.alpha >= Ggx::MIN_ALPHA && self.alpha.min(1.0) * (glass.eta - 1.0).abs() >= 1e-4 {
+            RoughDielectric { glass, ggx: Ggx::new(self.alpha) }.into()
+        } else {
+            glass.into()
+        }
+    }
+    fn textures(&self) -> Vec<TextureId> {
+        self.glass.textures()
+    }
+}
+
+/// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", with visible normals. Transmission uses
+/// the paper's separable masking (eq. 23); reflection the height-correlated one, as the metals here do.
+#[derive(Clone, Copy, Debug)]
+pub struct RoughDielectric {
+    glass: Dielectric,
+    ggx: Ggx,
+}
+
+/// A refraction by one facet, but for the share 1 − F and the squeeze of radiance.
+struct Passage {
+    /// Reflected fraction at the facet.
+    fresnel: f32,
+    /// Scattering function for flux, 1/sr.
+    f: f32,
+    /// Density (1/sr) of `wi` when visible micronormals are drawn.
+    pdf: f32,
+}
+
+impl RoughDielectric {
+    /// The refraction from `up`, above the surface, to `wi`, below it; `None` if no visible facet does that. `eta` is η
+    /// below over η above, as `up` sees it.
+    #[inline]
+    fn passage(&self, up: Local, wi: Local, eta: f32) -> Option<Passage> {
+        if up.cos_theta() <= 0.0 || wi.cos_theta() >= 0.0 {
+            return None;
+        }
+        // Walter et al. 2007, eq. 16, turned to the upper side (as it stands it points into the thinner medium).
+        let m = (up.0 + eta * wi.0).try_normalize()?;
+        let m = Local(m * 1f32.copysign(m.z));
+        let (cos, cos_t) = (up.dot(m), -wi.dot(m));
+        if cos <= 0.0 || cos_t <= 0.0 {
+            return None;
+        }
+        // dm/dwi = η² |wi·m| / (wo·m + η wi·m)² (eq. 17).
+        let squeeze = cos - eta * cos_t;
+        let jacobian = eta * eta * cos_t / (squeeze * squeeze);
+        let pdf = self.ggx.pdf_visible(up, m) * jacobian;
+        // f cos θi = pdf · G₂/G₁(wo), and with separable masking that ratio is G₁(wi) (eqs. 21, 23).
+        let fresnel = fresnel::between(cos, cos_t, eta).reflectance();
+        Some(Passage { fresnel, f: pdf * self.ggx.g1(wi) / wi.abs_cos_theta(), pdf })
+    }
+}
+
+impl Scatter for RoughDielectric {
+    #[inline]
+    fn eval(&self, wo: Local, wi: Local, mode: Transport) -> Spectrum {
+        let eta = self.glass.eta_beyond(wo);
+        let (up, wi) = (seen_from(wo, wo), seen_from(wo, wi));
+        if let Some(g) = self.ggx.glint(up, wi) {
+            self.glass.reflectance * (g.f * fresnel::dielectric(g.cos, eta).reflectance())
+        } else if let Some(p) = self.passage(up, wi, eta) {
+            self.glass.transmission(eta, mode) * (p.f * (1.0 - p.fresnel))
+        } else {
+            Spectrum::BLACK
+        }
+    }
+    #[inline]
+    fn pdf(&self, wo: Local, wi: Local) -> f32 {
+        let eta = self.glass.eta_beyond(wo);
+        let (up, wi) = (seen_from(wo, wo), seen_from(wo, wi));
+        if let Some(g) = self.ggx.glint(up, wi) {
+            g.pdf * self.glass.prob_reflect(fresnel::dielectric(g.cos, eta).reflectance())
+        } else if let Some(p) = self.passage(up, wi, eta) {
+            p.pdf * (1.0 - self.glass.prob_reflect(p.fresnel))
+        } else {
+            0.0
+        }
+    }
+    #[inline]
+    fn sample(&self, wo: Local, u_lobe: f32, u: Vec2, mode: Transport) -> Option<BsdfSample> {
+        let up = seen_from(wo, wo);
+        if up.cos_theta() <= 0.0 {
+            return None;
+        }
+        let eta = self.glass.eta_beyond(wo);
+        let m = self.ggx.sample_visible(up, u);
+        let cos = up.dot(m).clamp(0.0, 1.0);
+        let boundary = fresnel::dielectric(cos, eta);
+        let fresnel = boundary.reflectance();
+        let prob = self.glass.prob_reflect(fresnel);
+        if u_lobe < prob {
+            let wi = reflect_up(up, m)?;
+            let weight = self.glass.reflectance * (fresnel / prob * self.ggx.shadowing(up, wi));
+            return BsdfSample::scattered(seen_from(wo, wi), weight, prob * self.ggx.glint(up, wi)?.pdf);
+        }
+        // Snell's law in vectors (Walter et al. 2007, eq. 40).
+        let wi = Local(((cos / eta - boundary.cos_t) * m.0 - up.0 / eta).normalize());
+        let p = self.passage(up, wi, eta)?;
+        let carried = (1.0 - fresnel) / (1.0 - prob) * self.ggx.g1(wi);
+        let weight = self.glass.transmission(eta, mode) * carried;
+        let s = BsdfSample::scattered(seen_from(wo, wi), weight, (1.0 - prob) * p.pdf)?;
+        Some(BsdfSample { eta, ..s })
+    }
+    #[inline]
+    fn is_connectible(&self) -> bool {
+        !self.glass.reflectance.is_black() || !self.glass.transmittance.is_black()
+    }
+}
