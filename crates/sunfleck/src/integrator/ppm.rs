@@ -21,17 +21,19 @@ use crate::{
     walk::{Arrival, Escape, Limits, Start, Step, Visit, walk},
 };
 
-/// First radius in pixel widths.
-const PIXELS: f32 = 3.0;
+/// First radius in pixel widths. Relative error of single pixels after 64 passes with one light path per pixel: matt
+/// Cornell box at 200² 10 % with 1.5, 6.6 % with 3, 6.1 % with this, 5.4 % with 6; glass ball under a large lamp at 128²
+/// 7.3 % with 1.3, 5.0 % with 2.7, 4.9 % with this, 5.2 % with 5.4, where the caustic gets too soft.
+const PIXELS: f32 = 4.0;
 
 pub(super) const ENTRY: Entry = Entry {
     name: "ppm",
     about: "progressive photon mapping: finds caustics seen through glass and in mirrors; noise and blur both vanish",
     params: &[
         ParamInfo { name: "photons", about: "light paths a pass, 1 to 1e9 (default: one per pixel)" },
-        ParamInfo { name: "radius", about: "first radius, world units > 0 (default: 3 pixel widths)" },
+        ParamInfo { name: "radius", about: "first radius, world units > 0 (default: 4 pixel widths)" },
         ParamInfo { name: "alpha", about: "how the radius shrinks, 0.01 to 1 (default 2/3; 1 keeps it)" },
-        ParamInfo { name: "kernel", about: "constant, cone or epanechnikov (default constant)" },
+        ParamInfo { name: "kernel", about: "constant, cone or epanechnikov (default epanechnikov)" },
         ParamInfo {
             name: "direct",
             about: "light that comes straight from a light: connect or photons (default connect)",
@@ -53,7 +55,8 @@ pub(super) const ENTRY: Entry = Entry {
     },
 };
 
-/// How light that comes straight from a light is found.
+/// How light that comes straight from a light is found. Connecting is the default: on the matt Cornell box it left 6.6 %
+/// error where photons left 9.4 % in the same time, and no blur around the lamp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direct {
     /// By drawing a point of a light.
@@ -86,7 +89,7 @@ impl Default for Ppm {
             photons: None,
             radius: None,
             schedule: Schedule::default(),
-            kernel: Kernel::Constant,
+            kernel: Kernel::Epanechnikov,
             direct: Direct::Connect,
         }
     }

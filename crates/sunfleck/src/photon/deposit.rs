@@ -91,7 +91,7 @@ impl Shower {
             .map(|c| {
                 let mut deposit = Deposit { keep: self.keep, catch: Catch::default() };
                 for path in c * CHUNK..((c + 1) * CHUNK).min(self.paths) {
-                    self.trace(world, &limits, path, &mut deposit);
+                    self.trace(world, limits, path, &mut deposit);
                 }
                 deposit.catch
             })
@@ -99,12 +99,12 @@ impl Shower {
         Catch::join(&chunks)
     }
 
-    fn trace(&self, world: &World, limits: &Limits, path: u64, deposit: &mut Deposit) {
+    fn trace(&self, world: &World, limits: Limits, path: u64, deposit: &mut Deposit) {
         let mut sampler = Sampler::new(self.seed, self.domain, self.pass, self.first + path);
         deposit.catch.counts.emitted += 1;
         let Some(mut start) = emit(world, &mut sampler) else { return };
         start.beta = start.beta / self.paths as f32;
-        deposit.catch.counts.rays += walk(world, &start, limits, &mut sampler, deposit);
+        deposit.catch.counts.rays += walk(world, &start, &limits, &mut sampler, deposit);
     }
 }
 

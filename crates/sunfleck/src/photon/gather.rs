@@ -23,7 +23,7 @@ pub struct Disc {
 }
 
 /// Adds up what photons scatter toward the eye.
-struct Sum<'i> {
+struct Estimate<'i> {
     at: &'i Interaction,
     /// Set where scattering is the same for all directions on the eye's side and none on the other, which is where most
     /// photons are gathered: only their flux needs summing.
@@ -31,7 +31,7 @@ struct Sum<'i> {
     sum: Spectrum,
 }
 
-impl<'i> Sum<'i> {
+impl<'i> Estimate<'i> {
     #[inline]
     fn new(at: &'i Interaction) -> Self {
         Self { at, matt: matches!(at.bsdf, Bsdf::Diffuse(_)), sum: Spectrum::BLACK }
@@ -61,13 +61,13 @@ impl<'i> Sum<'i> {
 #[inline]
 pub fn gather_within(map: &RadiusMap, at: &Interaction, disc: Disc, most: u32) -> Spectrum {
     let r2 = disc.radius * disc.radius;
-    let mut sum = Sum::new(at);
+    let mut estimate = Estimate::new(at);
     map.within(at.p, disc.radius, |photon, d2| {
         if photon.scatterings <= most {
-            sum.add(photon, disc.kernel.shape(d2, r2));
+            estimate.add(photon, disc.kernel.shape(d2, r2));
         }
     });
-    sum.radiance(r2)
+    estimate.radiance(r2)
 }
 
 /// A running search for the nearest photons, reused from place to place.
@@ -87,7 +87,10 @@ pub struct NearestQuery {
 const R_MIN: f32 = 1e-3;
 
 impl NearestQuery {
-    /// A search for `k` photons (at least 2) within `r_max` (world units, positive).
+    /// A search for `k` photons within `r_max` (world units).
+    ///
+    /// # Panics
+    /// If `k` is less than 2 or `r_max` is not positive.
     pub fn new(k: usize, r_max: f32) -> Self {
         assert!(k >= 2 && r_max > 0.0, "{k} photons within {r_max} make no estimate");
         Self { k, r_max, found: Neighbours::new(), last: None }
@@ -131,12 +134,12 @@ pub fn gather_nearest(
         return Spectrum::BLACK;
     }
     let (count, r2) = query.find(map, at.p);
-    let mut sum = Sum::new(at);
+    let mut estimate = Estimate::new(at);
     for (index, d2) in query.found.iter().take(count) {
         let photon = map.photon(index);
         if photon.scatterings <= most {
-            sum.add(photon, kernel.shape(d2, r2));
+            estimate.add(photon, kernel.shape(d2, r2));
         }
     }
-    sum.radiance(r2)
+    estimate.radiance(r2)
 }

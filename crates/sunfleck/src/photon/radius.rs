@@ -104,6 +104,7 @@ mod tests {
     fn the_squared_radius_falls_as_a_power_of_the_pass() {
         let schedule = Schedule::default();
         assert_eq!(schedule.squared(0), 1.0);
+        assert!((schedule.radius(9).powi(2) / schedule.squared(9) as f32 - 1.0).abs() < 1e-6);
         for i in [1000u64, 1_000_000, 1_000_000_000_000] {
             let slope = (schedule.squared(2 * i) / schedule.squared(i)).log2();
             assert!((slope + 1.0 / 3.0).abs() < 1e-3, "pass {i}: {slope}");

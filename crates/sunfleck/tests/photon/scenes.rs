@@ -1,6 +1,4 @@
 //! Small scenes and measurements shared by the tests of photons and of the algorithms that use them.
-#![allow(unreachable_pub, reason = "a module of tests, of which each file uses a part")]
-#![allow(dead_code, reason = "as above")]
 use glam::{DVec3, Vec3};
 use std::ops::ControlFlow;
 use sunfleck::{
@@ -16,12 +14,12 @@ use sunfleck::{
 };
 
 /// A square picture.
-pub fn spec(size: u32) -> FilmSpec {
+pub(crate) fn spec(size: u32) -> FilmSpec {
     FilmSpec { width: size, height: size, filter: Filter::Box }
 }
 
 /// The algorithm `name` with settings given as `"key=value key=value"`.
-pub fn make(name: &str, settings: &str) -> Box<dyn Integrator> {
+pub(crate) fn make(name: &str, settings: &str) -> Box<dyn Integrator> {
     let mut p = Params::default();
     for word in settings.split_whitespace() {
         let (k, v) = word.split_once('=').expect("key=value");
@@ -31,46 +29,46 @@ pub fn make(name: &str, settings: &str) -> Box<dyn Integrator> {
 }
 
 /// Renders `passes` passes.
-pub fn shoot(scene: &Scene, integrator: &dyn Integrator, spec: FilmSpec, passes: u64) -> Film {
+pub(crate) fn shoot(scene: &Scene, integrator: &dyn Integrator, spec: FilmSpec, passes: u64) -> Film {
     let budget = Budget { passes: Some(passes), time: None };
     render(scene, integrator, &Settings { spec, seed: 1, budget }, |_, _| ControlFlow::Continue(()))
 }
 
 /// Mean over the picture.
-pub fn mean(film: &Film) -> Rgb {
+pub(crate) fn mean(film: &Film) -> Rgb {
     let pixels = film.mean();
     (pixels.iter().map(|p| p.as_dvec3()).sum::<DVec3>() / pixels.len() as f64).as_vec3()
 }
 
 /// A perspective camera of square pictures.
-pub fn eye(position: Vec3, look_at: Vec3, fov: f32) -> Perspective {
+pub(crate) fn eye(position: Vec3, look_at: Vec3, fov: f32) -> Perspective {
     Perspective::new(&View { position, look_at, up: Vec3::Y }, fov, 1.0).expect("a camera")
 }
 
 /// A matt material.
-pub fn matt(b: &mut SceneBuilder, colour: Rgb) -> MaterialId {
+pub(crate) fn matt(b: &mut SceneBuilder, colour: Rgb) -> MaterialId {
     let reflectance = b.constant(colour);
     b.material(DiffuseMaterial { reflectance })
 }
 
 /// Clear glass of index `eta`.
-pub fn glass(b: &mut SceneBuilder, eta: f32) -> MaterialId {
+pub(crate) fn glass(b: &mut SceneBuilder, eta: f32) -> MaterialId {
     let white = b.constant(Rgb::ONE);
     b.material(DielectricMaterial { eta, reflectance: white, transmittance: white })
 }
 
 /// A patch whose outer side is that of `u × v`.
-pub fn patch(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> Shape {
+pub(crate) fn patch(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> Shape {
     Shape::Parallelogram(Parallelogram { p: p.into(), u: u.into(), v: v.into() })
 }
 
 /// A sphere.
-pub fn ball(centre: [f32; 3], radius: f32) -> Shape {
+pub(crate) fn ball(centre: [f32; 3], radius: f32) -> Shape {
     Shape::Sphere(Sphere { centre: centre.into(), radius })
 }
 
 /// The six sides of the cube [−1, 1]³, outer side inward.
-pub fn walls() -> [Shape; 6] {
+pub(crate) fn walls() -> [Shape; 6] {
     [
         patch([-1.0, -1.0, -1.0], [0.0, 0.0, 2.0], [2.0, 0.0, 0.0]),
         patch([-1.0, 1.0, -1.0], [2.0, 0.0, 0.0], [0.0, 0.0, 2.0]),
@@ -82,7 +80,7 @@ pub fn walls() -> [Shape; 6] {
 }
 
 /// A closed room [−1, 1]³ with a lamp of `size` below its ceiling; the camera stands inside. Red and green side walls.
-pub fn room(lamp: Rgb, size: f32) -> SceneBuilder {
+pub(crate) fn room(lamp: Rgb, size: f32) -> SceneBuilder {
     let mut b = SceneBuilder::new();
     let white = matt(&mut b, Rgb::new(0.7, 0.7, 0.7));
     let red = matt(&mut b, Rgb::new(0.6, 0.07, 0.05));
@@ -99,7 +97,7 @@ pub fn room(lamp: Rgb, size: f32) -> SceneBuilder {
 }
 
 /// [`room`] with a matt ball in it.
-pub fn small_cornell() -> Scene {
+pub(crate) fn small_cornell() -> Scene {
     let mut b = room(Rgb::new(10.0, 8.0, 6.0), 0.6);
     let white = matt(&mut b, Rgb::new(0.7, 0.6, 0.5));
     b.add(ball([0.3, -0.6, 0.3], 0.4), white);
@@ -107,15 +105,23 @@ pub fn small_cornell() -> Scene {
 }
 
 /// [`room`] with a glass ball under a large lamp, which a path tracer can still hit through the glass.
-pub fn caustic() -> Scene {
+pub(crate) fn caustic() -> Scene {
     let mut b = room(Rgb::splat(4.0), 1.2);
     let glass = glass(&mut b, 1.5);
     b.add(ball([0.1, -0.3, 0.2], 0.4), glass);
     b.build().expect("a scene")
 }
 
+/// [`room`] seen from inside a small ball of glass, so that every camera path has scattered before it meets a wall.
+pub(crate) fn eye_in_glass() -> Scene {
+    let mut b = room(Rgb::splat(10.0), 0.6);
+    let glass = glass(&mut b, 1.5);
+    b.add(ball([0.0, 0.0, -0.95], 0.03), glass);
+    b.build().expect("a scene")
+}
+
 /// The inside of a sphere that emits `le` and reflects `albedo`, seen from off its centre.
-pub fn furnace_ball(le: Rgb, albedo: Rgb) -> Scene {
+pub(crate) fn furnace_ball(le: Rgb, albedo: Rgb) -> Scene {
     let mut b = SceneBuilder::new();
     let grey = matt(&mut b, albedo);
     // Both sides emit, of which only the inner one can be seen.
@@ -125,7 +131,7 @@ pub fn furnace_ball(le: Rgb, albedo: Rgb) -> Scene {
 }
 
 /// The inside of a cube whose walls emit `le` and reflect `albedo`.
-pub fn furnace_box(le: Rgb, albedo: Rgb) -> Scene {
+pub(crate) fn furnace_box(le: Rgb, albedo: Rgb) -> Scene {
     let mut b = SceneBuilder::new();
     let grey = matt(&mut b, albedo);
     for shape in walls() {
@@ -136,7 +142,7 @@ pub fn furnace_box(le: Rgb, albedo: Rgb) -> Scene {
 }
 
 /// [`room`] with a floor mat whose shading normals lean by 35 degrees, of a material made by `material`.
-pub fn leaning(material: impl Fn(&mut SceneBuilder) -> MaterialId) -> Scene {
+pub(crate) fn leaning(material: impl Fn(&mut SceneBuilder) -> MaterialId) -> Scene {
     let mut b = room(Rgb::splat(10.0), 0.6);
     let m = material(&mut b);
     let p = [[-0.8, -0.9, -0.6], [-0.8, -0.9, 0.8], [0.8, -0.9, 0.8], [0.8, -0.9, -0.6]].map(Vec3::from).to_vec();
@@ -147,11 +153,11 @@ pub fn leaning(material: impl Fn(&mut SceneBuilder) -> MaterialId) -> Scene {
 }
 
 /// Means and variances of the mean, by block of pixels and channel.
-pub struct Blocks(Vec<(DVec3, DVec3)>);
+pub(crate) struct Blocks(Vec<(DVec3, DVec3)>);
 
 /// Renders `batches` times `passes` passes, each batch with a seed of its own, so that what photons do to several pixels
 /// at once is part of the variance.
-pub fn measure(scene: &Scene, integrator: &dyn Integrator, size: u32, batches: u64, passes: u64) -> Blocks {
+pub(crate) fn measure(scene: &Scene, integrator: &dyn Integrator, size: u32, batches: u64, passes: u64) -> Blocks {
     const BLOCK: usize = 8;
     let w = size as usize / BLOCK;
     let mut sums = vec![(DVec3::ZERO, DVec3::ZERO); w * w];
@@ -175,12 +181,12 @@ pub fn measure(scene: &Scene, integrator: &dyn Integrator, size: u32, batches: u
 
 impl Blocks {
     /// Mean over all blocks and channels.
-    pub fn mean(&self) -> f64 {
+    pub(crate) fn mean(&self) -> f64 {
         self.0.iter().map(|(m, _)| m.element_sum() / 3.0).sum::<f64>() / self.0.len() as f64
     }
     /// Holds two pictures against each other: deviations in units of their standard error, to which `bias`, a fraction
     /// of the value, is added; the worst of all blocks and channels, and their root mean square.
-    pub fn deviation(&self, other: &Self, bias: f64) -> (f64, f64) {
+    pub(crate) fn deviation(&self, other: &Self, bias: f64) -> (f64, f64) {
         let mut worst = 0.0f64;
         let mut sum = 0.0;
         for ((a, va), (b, vb)) in self.0.iter().zip(&other.0) {

@@ -1,10 +1,8 @@
 //! Photons and maps by themselves: how many, how much flux, which ones are found, and what a density estimate makes of
 //! them. Several of these were wrong in photon mappers that people wrote for courses.
-mod photon_scenes;
-
+use crate::scenes::{ball, glass, matt, patch, room, walls};
 use accel::Neighbours;
 use glam::Vec3;
-use photon_scenes::{ball, glass, matt, patch, room, walls};
 use sunfleck::{
     light::PointLight,
     math::{Ray, Vec2},
@@ -44,6 +42,20 @@ fn photons_at_first_hits_in_a_closed_box_carry_all_power() {
     let catch = shower(4096, Keep::All, 1).shoot(&scene.world(RGB));
     assert_eq!((catch.counts.emitted, catch.photons.len()), (4096, 4096));
     assert!((flux(&catch) / power - 1.0).abs().max_element() < 1e-4, "{}", flux(&catch));
+}
+
+#[test]
+fn two_lamps_of_unlike_power_give_photons_of_like_flux_and_the_sum_of_their_power() {
+    let mut b = SceneBuilder::new();
+    let grey = matt(&mut b, Rgb::splat(0.5));
+    walls().into_iter().for_each(|w| b.add(w, grey));
+    for (x, watts) in [(-0.5, 1.0), (0.5, 9.0)] {
+        let intensity = Rgb::splat(watts / (4.0 * std::f32::consts::PI));
+        b.light(PointLight { p: Vec3::new(x, 0.0, 0.0), intensity });
+    }
+    let catch = shower(10_000, Keep::All, 1).shoot(&b.build().unwrap().world(RGB));
+    assert!((flux(&catch) / 10.0 - 1.0).abs().max_element() < 1e-4, "{}", flux(&catch));
+    assert!(catch.photons.iter().all(|p| (p.flux.max() / 1e-3 - 1.0).abs() < 1e-4));
 }
 
 #[test]
