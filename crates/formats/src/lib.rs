@@ -5,5 +5,9 @@ pub mod compare;
 pub mod diagnostic;
 pub mod image;
 mod lines;
+pub mod load;
 pub mod obj;
 pub mod scn;
+
+pub use diagnostic::{Diagnostic, Error, Severity};
+pub use load::{LoadOptions, Loaded, SCENE_FORMATS, load};

@@ -29,17 +29,17 @@ impl SourceFile {
     /// Reads a text file.
     ///
     /// # Errors
-    /// Missing (with near names of that folder), a folder, unreadable, larger than [`MAX_FILE_BYTES`], or UTF-16.
+    /// Missing (with near names of that folder), a folder, unreadable, larger than [`MAX_FILE_BYTES`], UTF-16, or binary.
     pub fn read(path: &Path) -> Result<Self, Error> {
         let source = Self { name: path.display().to_string(), bytes: read_bytes(path)? };
-        match utf16_flavour(&source.bytes) {
-            None => Ok(source),
-            Some(flavour) => Err(Diagnostic::error("file::utf16", format!("the file is {flavour} text"))
-                .in_file(source.name)
-                .expected("ASCII or UTF-8 text")
-                .help("save it again as UTF-8 (in a shell: iconv -f UTF-16 -t UTF-8)")
-                .into()),
-        }
+        let head = &source.bytes[..source.bytes.len().min(4096)];
+        let error = match utf16_flavour(head) {
+            Some(flavour) => Diagnostic::error("file::utf16", format!("the file is {flavour} text"))
+                .help("save it again as UTF-8 (in a shell: iconv -f UTF-16 -t UTF-8)"),
+            None if head.contains(&0) => Diagnostic::error("file::binary", "the file is binary, not text"),
+            None => return Ok(source),
+        };
+        Err(error.in_file(source.name).expected("ASCII or UTF-8 text").into())
     }
 
     /// What messages call this file.

@@ -110,6 +110,8 @@ fn files_that_cannot_be_read_say_why() {
     insta::assert_snapshot!("missing_folder", told("nowhere/cornell_box.scn"));
     insta::assert_snapshot!("utf16_without_mark", told("utf16.scn"));
     insta::assert_snapshot!("utf16_with_mark", told("utf16be.scn"));
+    std::fs::write(path("binary.scn"), b"Begin\0\0\0\x01").unwrap();
+    insta::assert_snapshot!("binary", told("binary.scn"));
     insta::assert_snapshot!("folder", told("."));
     std::fs::File::create(path("huge.scn")).unwrap().set_len((1 << 30) + 1).unwrap();
     insta::assert_snapshot!("huge_file", told("huge.scn"));

@@ -93,16 +93,13 @@ struct Picture {
     is_colour: bool,
 }
 
-/// Groups the channels `layer.R`, `layer.G`, `layer.B` (or X, Y, Z) to pictures; any other channel is a grey one.
-fn pictures_of_part(
-    channels: AnyChannels<FlatSamples>,
-    part: Option<&str>,
-    (width, height): (u32, u32),
-) -> Vec<Picture> {
-    let mut groups: Vec<(String, Vec<AnyChannel<FlatSamples>>)> = Vec::new();
-    // Subsampled channels have fewer samples.
-    let is_full = |c: &AnyChannel<FlatSamples>| c.sample_data.len() == width as usize * height as usize;
-    for channel in channels.list.into_iter().filter(is_full) {
+/// Channels that share all of their name but the last word: `layer.R`, `layer.G`, `layer.B`.
+type Group = (String, Vec<AnyChannel<FlatSamples>>);
+
+fn group_channels(channels: AnyChannels<FlatSamples>, pixels: usize) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    // Subsampled channels have fewer samples than pixels; they are left out.
+    for channel in channels.list.into_iter().filter(|c| c.sample_data.len() == pixels) {
         let full = channel.name.to_string();
         let prefix = full.rsplit_once('.').map_or("", |(prefix, _)| prefix).to_owned();
         match groups.iter_mut().find(|(name, _)| *name == prefix) {
@@ -110,31 +107,38 @@ fn pictures_of_part(
             None => groups.push((prefix, vec![channel])),
         }
     }
+    groups
+}
+
+/// R, G and B (or X, Y and Z) of a group become a picture; any other channel becomes a grey one.
+fn pictures_of_part(
+    channels: AnyChannels<FlatSamples>,
+    part: Option<&str>,
+    (width, height): (u32, u32),
+) -> Vec<Picture> {
     let mut pictures = Vec::new();
-    for (prefix, group) in groups {
+    for (prefix, group) in group_channels(channels, width as usize * height as usize) {
         let layer: Vec<&str> = part.into_iter().chain([prefix.as_str()]).filter(|s| !s.is_empty()).collect();
         let layer = layer.join(".");
+        let picture = |name: String, channels: [usize; 3], is_colour: bool| {
+            let data = interleave(channels.map(|i| &group[i].sample_data));
+            Picture { name, image: RgbImage32 { width, height, data }, is_colour }
+        };
         let find = |base: &str| group.iter().position(|c| base_name(c).eq_ignore_ascii_case(base));
         let triple = [["R", "G", "B"], ["X", "Y", "Z"]].into_iter().find_map(|names| {
             let [a, b, c] = names.map(find);
             Some([a?, b?, c?])
         });
-        let mut grey: Vec<usize> = (0..group.len()).collect();
-        if let Some(triple) = triple {
-            let data = interleave(triple.map(|i| &group[i].sample_data));
-            pictures.push(Picture { name: layer.clone(), image: RgbImage32 { width, height, data }, is_colour: true });
-            grey.retain(|i| !triple.contains(i) && !base_name(&group[*i]).eq_ignore_ascii_case("A"));
-        }
-        for i in grey {
-            let base = base_name(&group[i]);
+        pictures.extend(triple.map(|triple| picture(layer.clone(), triple, true)));
+        let used = |i: usize, base: &str| triple.is_some_and(|t| t.contains(&i) || base.eq_ignore_ascii_case("A"));
+        for (i, base) in group.iter().map(base_name).enumerate().filter(|(i, base)| !used(*i, base)) {
             let is_luminance = base.eq_ignore_ascii_case("Y") && triple.is_none();
             let name = match (is_luminance, layer.is_empty()) {
                 (true, _) => layer.clone(),
                 (false, true) => base,
                 (false, false) => format!("{layer}.{base}"),
             };
-            let data = interleave([&group[i].sample_data; 3]);
-            pictures.push(Picture { name, image: RgbImage32 { width, height, data }, is_colour: is_luminance });
+            pictures.push(picture(name, [i; 3], is_luminance));
         }
     }
     pictures

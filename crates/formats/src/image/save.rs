@@ -28,10 +28,7 @@ pub fn write_image(path: &Path, file: &ImageFile, tone: Tone) -> Result<WriteRep
         let message = format!("cannot store the picture as {}: {reason}", format.name);
         Error::from(Diagnostic::error("image::cannot-store", message).in_file(&name))
     })?;
-    replace_file(path, &bytes).map_err(|error| {
-        let message = format!("cannot write the file: {error}");
-        Error::from(Diagnostic::error("image::cannot-write", message).in_file(&name))
-    })?;
+    replace_file(path, &bytes).map_err(|error| cannot_write(path, &error))?;
     let non_finite = |p: &&[f32; 3]| !p.iter().all(|x| x.is_finite());
     Ok(WriteReport {
         non_finite_pixels: file.image.data.iter().filter(non_finite).count(),
@@ -67,14 +64,28 @@ fn check_consistent(file: &ImageFile, name: &str) -> Result<(), Error> {
     Err(Diagnostic::error("image::cannot-store", message).in_file(name).into())
 }
 
+fn cannot_write(path: &Path, error: &std::io::Error) -> Error {
+    // The full text would name the temporary file.
+    let message = format!("cannot write the file: {}", error.kind());
+    let diagnostic = Diagnostic::error("image::cannot-write", message).in_file(path.display().to_string());
+    let folder = folder_of(path);
+    if folder.is_dir() {
+        return diagnostic.into();
+    }
+    diagnostic.help(format!("the folder {} does not exist", folder.display())).into()
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
 fn replace_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
-    let folder = path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let mut builder = tempfile::Builder::new();
     builder.prefix(".sunfleck-").suffix(".part");
     // Temporary files are private by default; a picture is as open as any new file.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder)?;
+    let mut file = builder.tempfile_in(folder_of(path))?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
     file.persist(path)?;

@@ -5,7 +5,9 @@
 //! that a renderer of surfaces uses; they are skipped with a warning. The crates for this format report no columns,
 //! which is why this reader exists.
 
+mod appearance;
 mod faces;
+mod import;
 mod libraries;
 mod mtl;
 mod parser;
@@ -14,6 +16,7 @@ mod tests;
 mod tree;
 mod triangulate;
 
+pub(crate) use import::FORMAT;
 pub use libraries::read_libraries;
 pub use mtl::{MtlMaterial, parse_mtl};
 pub use parser::{MAX_CORNERS, parse};

@@ -4,15 +4,21 @@
 //! `Begin Model`, `Begin Light`, each closed by `End`, in any number and order; a material stands before its use.
 //! NRenderer's own reader is silent about most mistakes and crashes on some; here each is a message with its place.
 
+mod appearance;
+mod import;
 mod lights;
 mod materials;
 mod models;
 mod numbers;
+mod options;
 mod parser;
+mod properties;
 #[cfg(test)]
 mod tests;
 mod tree;
 
+pub(crate) use import::FORMAT;
+pub use options::ScnOptions;
 pub use parser::{MAX_OBJECTS, parse};
 pub use tree::{
     LightKind, Plane, PropValue, ScnFile, ScnLight, ScnMaterial, ScnModel, ScnProp, ScnShape, ShapeKind, Spanned,

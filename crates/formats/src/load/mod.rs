@@ -1,0 +1,135 @@
+//! The front door: from paths to a scene that can be built, whatever the formats.
+//!
+//! Several files become one scene, as when they are imported into NRenderer one after the other. To add a format, write
+//! its reader, and add one line to [`SCENE_FORMATS`].
+
+mod camera;
+mod hash;
+mod target;
+#[cfg(test)]
+mod tests;
+
+pub use camera::{CameraSettings, RenderDefaults};
+pub use target::Target;
+
+use crate::diagnostic::{Diagnostic, Error};
+use crate::image::Tone;
+use crate::scn::ScnOptions;
+use hash::InputHash;
+use std::path::{Path, PathBuf};
+use sunfleck::film::Filter;
+use sunfleck::scene::SceneBuilder;
+
+/// How scene files are read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct LoadOptions {
+    /// For NRenderer's scenes.
+    pub scn: ScnOptions,
+}
+
+/// A scene that was read, and what its files say or imply about the picture.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The scene, without a camera.
+    pub builder: SceneBuilder,
+    /// The camera of the files, or the default of their format.
+    pub camera: CameraSettings,
+    /// Picture size and the like.
+    pub defaults: RenderDefaults,
+    /// What was odd.
+    pub warnings: Vec<Diagnostic>,
+    /// A hash of the bytes of all files read and of the options: equal hashes mean equal scenes. 32 hexadecimal digits.
+    pub hash: String,
+    /// Number of surfaces added.
+    pub surfaces: usize,
+    /// Number of lights added, emitting surfaces included.
+    pub lights: usize,
+}
+
+/// Adds the content of one file to a scene. Errors go to the target's sink.
+pub type LoadFn = fn(&Path, &LoadOptions, &mut Target) -> Result<(), Error>;
+
+/// A format of scene files.
+#[derive(Clone, Copy, Debug)]
+pub struct SceneFormat {
+    /// Its usual name.
+    pub name: &'static str,
+    /// Extensions of file names, in lower case.
+    pub extensions: &'static [&'static str],
+    /// One line for lists.
+    pub about: &'static str,
+    /// Reads it.
+    pub load: LoadFn,
+}
+
+/// All formats of scene files.
+pub const SCENE_FORMATS: &[SceneFormat] = &[crate::scn::FORMAT, crate::obj::FORMAT];
+
+/// Reads one or several files into one scene.
+///
+/// # Errors
+/// All errors of all files: missing files (with near names), formats that are not known (with those that are), and
+/// mistakes inside of them with their places.
+pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
+    let mut target = Target::new();
+    let mut failed: Option<Error> = None;
+    for path in paths {
+        let result = format_of(path).and_then(|format| (format.load)(path, options, &mut target));
+        let (result, warnings) = (result.and_then(|()| target.sink.finish(())), target.sink.take_warnings());
+        target.warnings.extend(warnings);
+        if let Err(error) = result {
+            let all = failed.get_or_insert(Error { errors: Vec::new(), warnings: Vec::new() });
+            all.errors.extend(error.errors);
+            target.warnings.extend(error.warnings);
+        }
+    }
+    if paths.is_empty() {
+        failed = Some(Diagnostic::error("load::nothing", "no scene file is given").into());
+    }
+    if let Some(error) = failed {
+        return Err(Error { warnings: target.warnings, ..error });
+    }
+    warn_of_darkness(&mut target);
+    let compat = options.scn.compat;
+    Ok(Loaded {
+        builder: target.builder,
+        camera: CameraSettings::default(),
+        defaults: RenderDefaults {
+            filter: if compat { Filter::NRenderer } else { Filter::Box },
+            tone: if compat { Tone::SquareRoot } else { Tone::Srgb },
+            // NRenderer's depth of 4 counts hits; the last one does not scatter.
+            scatterings: compat.then_some(3),
+            ..RenderDefaults::default()
+        },
+        warnings: target.warnings,
+        hash: target.hash.finish(options),
+        surfaces: target.surfaces,
+        lights: target.lights,
+    })
+}
+
+fn format_of(path: &Path) -> Result<&'static SceneFormat, Error> {
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
+    if let Some(format) = SCENE_FORMATS.iter().find(|f| f.extensions.contains(&extension.as_str())) {
+        return Ok(format);
+    }
+    let message = match extension.as_str() {
+        "" => "a file name without an extension does not tell the format".to_owned(),
+        _ => format!("scene files of the format `{extension}` are not supported"),
+    };
+    let known = SCENE_FORMATS.iter().flat_map(|f| f.extensions.iter().copied());
+    let error = Diagnostic::error("load::unknown-format", message).in_file(path.display().to_string());
+    Err(error.one_of(&extension, known).into())
+}
+
+/// A scene may be loaded for other reasons than to see it, so this is no error.
+fn warn_of_darkness(target: &mut Target) {
+    if target.surfaces == 0 {
+        let warning = Diagnostic::warning("load::no-surface", "there is no surface in this scene");
+        target.warnings.push(warning.help("the picture will be empty"));
+    }
+    if target.lights == 0 {
+        let warning = Diagnostic::warning("load::no-light", "there is no light in this scene");
+        target.warnings.push(warning.help("the picture will be black"));
+    }
+}

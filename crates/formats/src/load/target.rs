@@ -1,0 +1,56 @@
+//! The scene that files are read into.
+
+use super::InputHash;
+use crate::diagnostic::{Diagnostic, Sink};
+use glam::Vec3;
+use sunfleck::light::{Light, Sides};
+use sunfleck::scene::{MaterialId, SceneBuilder, SurfaceDef};
+use sunfleck::shape::Shape;
+
+/// A scene in the making, with the findings so far.
+pub struct Target {
+    /// Findings about the file that is being read.
+    pub sink: Sink,
+    pub(super) builder: SceneBuilder,
+    pub(super) warnings: Vec<Diagnostic>,
+    pub(super) hash: InputHash,
+    pub(super) surfaces: usize,
+    pub(super) lights: usize,
+}
+
+impl Target {
+    pub(super) fn new() -> Self {
+        Self {
+            sink: Sink::default(),
+            builder: SceneBuilder::new(),
+            warnings: Vec::new(),
+            hash: InputHash::new(),
+            surfaces: 0,
+            lights: 0,
+        }
+    }
+
+    /// For materials and textures.
+    pub(crate) fn builder(&mut self) -> &mut SceneBuilder {
+        &mut self.builder
+    }
+
+    /// Notes the bytes of an input file.
+    pub(crate) fn input(&mut self, bytes: &[u8]) {
+        self.hash.add(bytes);
+    }
+
+    /// Adds a surface, emitting if `emission` is not black.
+    pub(crate) fn surface(&mut self, shape: Shape, material: MaterialId, emission: Option<(Vec3, Sides)>) {
+        let emission = emission.filter(|(radiance, _)| *radiance != Vec3::ZERO);
+        self.surfaces += 1;
+        self.lights += usize::from(emission.is_some());
+        self.builder.surface(SurfaceDef { shape, material, emission });
+    }
+
+    /// Adds a light that is no surface.
+    pub(crate) fn light(&mut self, light: impl Into<Light>) {
+        self.lights += 1;
+        self.builder.light(light);
+    }
+}

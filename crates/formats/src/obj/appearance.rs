@@ -1,0 +1,151 @@
+//! From MTL materials to sunfleck's models.
+
+use super::{MtlMaterial, ObjFile};
+use crate::diagnostic::{Diagnostic, SourceFile, Span};
+use crate::image::read_image_bytes;
+use crate::load::Target;
+use glam::Vec3;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+use sunfleck::bsdf::{
+    CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, Material, MirrorMaterial, PhongMaterial,
+};
+use sunfleck::scene::{MaterialId, TextureId};
+use sunfleck::texture::{ImageTexture, Texture, Wrap};
+
+/// For faces without a material, and for materials that are not defined.
+const DEFAULT_GREY: Vec3 = Vec3::splat(0.5);
+
+/// Models of illumination with refraction, by the MTL specification.
+const REFRACTING: [u32; 4] = [4, 6, 7, 9];
+
+/// Models of illumination with mirror reflection.
+const REFLECTING: [u32; 3] = [3, 5, 8];
+
+/// Makes each material once.
+pub(super) struct Appearances<'t> {
+    tree: &'t ObjFile,
+    by_name: HashMap<&'t str, &'t MtlMaterial>,
+    folder: &'t Path,
+    made: HashMap<Option<usize>, (MaterialId, Option<Vec3>)>,
+    pictures: HashMap<(PathBuf, [u32; 3]), Option<TextureId>>,
+}
+
+impl<'t> Appearances<'t> {
+    /// `folder` is where file names start.
+    pub(super) fn new(tree: &'t ObjFile, folder: &'t Path) -> Self {
+        let by_name = tree.material_by_name();
+        Self { tree, by_name, folder, made: HashMap::new(), pictures: HashMap::new() }
+    }
+
+    /// The material of that index into the file's names, and the radiance it emits, if any.
+    pub(super) fn of(
+        &mut self,
+        index: Option<usize>,
+        source: &SourceFile,
+        target: &mut Target,
+    ) -> (MaterialId, Option<Vec3>) {
+        if let Some(made) = self.made.get(&index) {
+            return *made;
+        }
+        let named = index.map(|i| &self.tree.material_names[i]);
+        let definition = named.and_then(|(name, _)| self.by_name.get(name.as_str()).copied());
+        let made = if let (Some(mtl), Some((_, span))) = (definition, named) {
+            let model = self.model(mtl, (source, *span), target);
+            let emission = mtl.emission.map(|e| Vec3::from_array(e).max(Vec3::ZERO));
+            (target.builder().material(model), emission)
+        } else {
+            let reflectance = target.builder().constant(DEFAULT_GREY);
+            (target.builder().material(DiffuseMaterial { reflectance }), None)
+        };
+        self.made.insert(index, made);
+        made
+    }
+
+    fn model(&mut self, mtl: &MtlMaterial, place: (&SourceFile, Span), target: &mut Target) -> Material {
+        let kd = reflectance(mtl.diffuse, DEFAULT_GREY);
+        let ks = reflectance(mtl.specular, Vec3::ZERO);
+        let model = mtl.model.unwrap_or(2);
+        if let Some(eta) = refraction(mtl, model) {
+            let transmittance = reflectance(mtl.transmission.filter(|t| *t != [0.0; 3]), Vec3::ONE);
+            let (white, tint) = (target.builder().constant(Vec3::ONE), target.builder().constant(transmittance));
+            return DielectricMaterial { eta, reflectance: white, transmittance: tint }.into();
+        }
+        if mtl.opacity.is_some_and(|d| d < 1.0) {
+            target.sink.warn("mtl::opacity", || {
+                let message = format!("material `{}` is partly transparent, but has no index of refraction", mtl.name);
+                let warning = Diagnostic::warning("mtl::opacity", message);
+                warning.at(place.0, place.1, "drawn opaque").help("for glass, give `Ni` above 1 besides `d`")
+            });
+        }
+        let diffuse = self.diffuse(mtl, kd, place, target);
+        if mtl.roughness.is_some() || mtl.metallic.is_some() {
+            let unit = |x: Option<f32>, default: f32| x.unwrap_or(default).clamp(0.0, 1.0);
+            let f0 = target.builder().constant(Vec3::splat(0.04));
+            let (roughness, metallic) = (unit(mtl.roughness, 0.5), unit(mtl.metallic, 0.0));
+            return CookTorranceMaterial { albedo: diffuse, f0, roughness, metallic }.into();
+        }
+        if REFLECTING.contains(&model) && ks != Vec3::ZERO && kd == Vec3::ZERO && mtl.diffuse_map.is_none() {
+            return MirrorMaterial { reflect: target.builder().constant(ks) }.into();
+        }
+        let exponent = mtl.exponent.unwrap_or(0.0);
+        if model >= 2 && ks != Vec3::ZERO && exponent > 0.0 {
+            let specular = target.builder().constant(ks);
+            return PhongMaterial { diffuse, specular, exponent: exponent.min(1e6) }.into();
+        }
+        DiffuseMaterial { reflectance: diffuse }.into()
+    }
+
+    /// `Kd`, or the picture that `map_Kd` names times `Kd` (a black one does not count).
+    fn diffuse(&mut self, mtl: &MtlMaterial, kd: Vec3, place: (&SourceFile, Span), target: &mut Target) -> TextureId {
+        let scale = if mtl.diffuse.is_none() || kd == Vec3::ZERO { Vec3::ONE } else { kd };
+        let picture = mtl.diffuse_map.as_ref().and_then(|name| {
+            let path = self.folder.join(name);
+            let key = (path.clone(), scale.to_array().map(f32::to_bits));
+            *self.pictures.entry(key).or_insert_with(|| read_picture(&path, scale, place, target))
+        });
+        picture.unwrap_or_else(|| target.builder().constant(kd))
+    }
+}
+
+/// Reads a texture; a warning if that fails.
+fn read_picture(path: &Path, scale: Vec3, place: (&SourceFile, Span), target: &mut Target) -> Option<TextureId> {
+    let read = crate::diagnostic::read_bytes(path).and_then(|bytes| {
+        let picture = read_image_bytes(&path.display().to_string(), &bytes)?;
+        target.input(&bytes);
+        Ok(picture.image)
+    });
+    match read {
+        Ok(image) => {
+            let pixels = image.data.iter().map(|p| Vec3::from_array(*p).clamp(Vec3::ZERO, Vec3::ONE) * scale).collect();
+            let texture = ImageTexture::new(image.width as usize, image.height as usize, pixels, Wrap::Repeat)?;
+            Some(target.builder().texture(Texture::Image(texture)))
+        }
+        Err(error) => {
+            target.sink.warn("mtl::texture", || {
+                let first = error.errors.first();
+                let reason = first.map_or("cannot be read", |e| e.message.as_str());
+                let message = format!("texture {}: {reason}", path.display());
+                let warning = Diagnostic::warning("mtl::texture", message);
+                let warning = warning.at(place.0, place.1, "drawn in its plain colour");
+                first.into_iter().flat_map(|e| &e.help).cloned().fold(warning, Diagnostic::help)
+            });
+            None
+        }
+    }
+}
+
+/// The index of refraction, if the material is glass: it says so, or it is not opaque and has an index.
+fn refraction(mtl: &MtlMaterial, model: u32) -> Option<f32> {
+    let given = mtl.ior.filter(|n| *n > 1.0);
+    let is_clear = mtl.opacity.is_some_and(|d| d < 1.0);
+    match given {
+        Some(eta) if is_clear || REFRACTING.contains(&model) => Some(eta),
+        None if mtl.ior.is_none() && is_clear && REFRACTING.contains(&model) => Some(1.5),
+        _ => None,
+    }
+}
+
+fn reflectance(colour: Option<[f32; 3]>, default: Vec3) -> Vec3 {
+    colour.map_or(default, Vec3::from_array).clamp(Vec3::ZERO, Vec3::ONE)
+}

@@ -1,0 +1,138 @@
+//! From the tree of an `.obj` file to meshes of a scene.
+
+use super::appearance::Appearances;
+use super::{Corner, ObjFile, ObjMesh, parse, read_libraries};
+use crate::diagnostic::{Diagnostic, Error, Sink, SourceFile};
+use crate::load::{LoadOptions, SceneFormat, Target};
+use glam::{Vec2, Vec3};
+use std::collections::HashMap;
+use std::path::Path;
+use sunfleck::light::Sides;
+use sunfleck::shape::{Mesh, Shape};
+
+/// The entry in the list of scene formats.
+pub(crate) const FORMAT: SceneFormat = SceneFormat {
+    name: "Wavefront OBJ",
+    extensions: &["obj"],
+    about: "Wavefront meshes with MTL materials: one mesh per object and material",
+    load,
+};
+
+fn load(path: &Path, _: &LoadOptions, target: &mut Target) -> Result<(), Error> {
+    let source = SourceFile::read(path)?;
+    target.input(source.bytes());
+    let mut tree = parse(&source, &mut target.sink);
+    target.sink.finish(())?;
+    let folder = path.parent().unwrap_or(Path::new(""));
+    for library in read_libraries(&mut tree, &source, folder, &mut target.sink) {
+        target.input(library.bytes());
+    }
+    target.sink.finish(())?;
+    if tree.meshes.is_empty() {
+        let message = "there are no faces in this file, so there is nothing to see";
+        return Err(Diagnostic::error("obj::no-faces", message).in_file(source.name()).into());
+    }
+    import(&tree, &source, folder, target);
+    Ok(())
+}
+
+fn import(tree: &ObjFile, source: &SourceFile, folder: &Path, target: &mut Target) {
+    let mut appearances = Appearances::new(tree, folder);
+    for mesh in &tree.meshes {
+        let (material, emission) = appearances.of(mesh.material, source, target);
+        if let Some(shape) = shape(tree, mesh, source, &mut target.sink) {
+            target.surface(shape, material, emission.map(|e| (e, Sides::One)));
+        }
+    }
+}
+
+/// The mesh with one index per corner; `None` if all its triangles are without area.
+fn shape(tree: &ObjFile, mesh: &ObjMesh, source: &SourceFile, sink: &mut Sink) -> Option<Shape> {
+    let mut vertices = Vertices::new(tree, mesh);
+    let point = |c: &Corner| Vec3::from_array(tree.positions[c.position as usize]);
+    let mut flat = 0_usize;
+    for triangle in &mesh.triangles {
+        let [a, b, c] = triangle.each_ref().map(point);
+        let normal = (b - a).cross(c - a);
+        if normal == Vec3::ZERO || !normal.is_finite() {
+            flat += 1;
+            continue;
+        }
+        let indices = triangle.map(|corner| vertices.index(corner, normal));
+        vertices.triangles.push(indices);
+    }
+    if flat > 0 {
+        sink.warn("obj::flat-triangles", || {
+            let object = if mesh.object.is_empty() { String::new() } else { format!(" of `{}`", mesh.object) };
+            let message = format!("{flat} of {} triangles{object} have no area", mesh.triangles.len());
+            Diagnostic::warning("obj::flat-triangles", message).in_file(source.name()).help("they are left out")
+        });
+    }
+    vertices.into_shape()
+}
+
+/// Corners of a mesh, made unique.
+struct Vertices<'t> {
+    tree: &'t ObjFile,
+    /// Whether some corner has a normal; then those without take that of their triangle.
+    has_normals: bool,
+    has_uvs: bool,
+    index_of: HashMap<Corner, u32>,
+    positions: Vec<Vec3>,
+    normals: Vec<Vec3>,
+    uvs: Vec<Vec2>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl<'t> Vertices<'t> {
+    fn new(tree: &'t ObjFile, mesh: &ObjMesh) -> Self {
+        let mut corners = mesh.triangles.iter().flatten();
+        Self {
+            tree,
+            has_normals: corners.clone().any(|c| normal(tree, *c).is_some()),
+            has_uvs: corners.any(|c| c.uv().is_some()),
+            index_of: HashMap::new(),
+            positions: Vec::new(),
+            normals: Vec::new(),
+            uvs: Vec::new(),
+            triangles: Vec::new(),
+        }
+    }
+
+    fn index(&mut self, corner: Corner, face_normal: Vec3) -> u32 {
+        let own_normal = normal(self.tree, corner);
+        let next = self.positions.len() as u32;
+        if self.has_normals && own_normal.is_none() {
+            // Belongs to one triangle only.
+            self.push(corner, face_normal);
+            return next;
+        }
+        let index = *self.index_of.entry(corner).or_insert(next);
+        if index == next {
+            self.push(corner, own_normal.unwrap_or(face_normal));
+        }
+        index
+    }
+
+    fn push(&mut self, corner: Corner, normal: Vec3) {
+        self.positions.push(Vec3::from_array(self.tree.positions[corner.position as usize]));
+        if self.has_normals {
+            self.normals.push(normal.normalize_or(Vec3::Z));
+        }
+        if self.has_uvs {
+            self.uvs.push(corner.uv().map_or(Vec2::ZERO, |i| Vec2::from_array(self.tree.uvs[i as usize])));
+        }
+    }
+
+    fn into_shape(self) -> Option<Shape> {
+        if self.triangles.is_empty() {
+            return None;
+        }
+        Mesh::new(self.positions, self.normals, self.uvs, self.triangles).ok().map(Shape::Mesh)
+    }
+}
+
+/// The normal of the file at a corner, if there is one of some length.
+fn normal(tree: &ObjFile, corner: Corner) -> Option<Vec3> {
+    Vec3::from_array(tree.normals[corner.normal()? as usize]).try_normalize()
+}

@@ -1,0 +1,149 @@
+//! Files that other people made: each gives a scene or picture, or a clear error. Skipped where they are not at hand.
+
+use formats::image::read_image;
+use formats::scn::ScnOptions;
+use formats::{Diagnostic, Error, LoadOptions, Loaded, load};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// A folder of the shared files, or `None` (with a note) if there is none.
+fn shared(folder: &str) -> Option<PathBuf> {
+    let root = std::env::var_os("SUNFLECK_SHARED")
+        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
+    let path = root.join(folder);
+    if !path.is_dir() {
+        eprintln!("skipped: {} is not there (set SUNFLECK_SHARED)", path.display());
+        return None;
+    }
+    Some(path)
+}
+
+/// All files below a folder, in order.
+fn files_below(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    let mut entries: Vec<PathBuf> = std::fs::read_dir(folder).unwrap().map(|e| e.unwrap().path()).collect();
+    entries.sort();
+    for path in entries {
+        if path.is_dir() {
+            files.extend(files_below(&path));
+        } else {
+            files.push(path);
+        }
+    }
+    files
+}
+
+fn has_extension(path: &Path, extensions: &[&str]) -> bool {
+    path.extension().is_some_and(|e| extensions.contains(&e.to_string_lossy().to_lowercase().as_str()))
+}
+
+fn load_one(path: &Path, compat: bool) -> Result<Loaded, Error> {
+    load(&[path.to_owned()], &LoadOptions { scn: ScnOptions { compat, ..ScnOptions::default() } })
+}
+
+fn print(path: &Path, warnings: &[Diagnostic]) {
+    println!("{}", path.display());
+    for warning in warnings {
+        println!("    {}: {}", warning.code, warning.message);
+    }
+}
+
+#[test]
+fn every_nrenderer_scene_loads_and_builds() {
+    let Some(folder) = shared("scenes/nrenderer") else { return };
+    let scenes: Vec<PathBuf> = files_below(&folder).into_iter().filter(|p| has_extension(p, &["scn", "obj"])).collect();
+    assert!(scenes.len() >= 22, "{} scenes", scenes.len());
+    for path in scenes {
+        for compat in [false, true] {
+            let loaded = load_one(&path, compat).unwrap_or_else(|e| panic!("{}:\n{e}", path.display()));
+            if !compat {
+                print(&path, &loaded.warnings);
+            }
+            loaded.builder.build().unwrap_or_else(|e| panic!("{}:\n{e}", path.display()));
+        }
+    }
+}
+
+#[test]
+fn the_stock_cornell_box_holds_what_its_file_says() {
+    let Some(folder) = shared("scenes/nrenderer") else { return };
+    let loaded = load_one(&folder.join("stock/path_tracing_cornel.scn"), false).unwrap();
+    let codes: Vec<&str> = loaded.warnings.iter().map(|w| w.code).collect();
+    assert_eq!(codes, ["scn::comma"]);
+    let counts = loaded.builder.build().unwrap().counts();
+    // 5 walls, a sphere, 6 planes of the box, the pyramid, the light.
+    assert_eq!((counts.surfaces, counts.spheres, counts.lights, counts.materials), (14, 1, 1, 4));
+}
+
+#[test]
+fn odd_meshes_give_a_scene_or_a_clear_error() {
+    let Some(folder) = shared("scenes/odd-obj-ply") else { return };
+    for path in files_below(&folder) {
+        let start = Instant::now();
+        match load_one(&path, false) {
+            Ok(loaded) => {
+                print(&path, &loaded.warnings);
+                assert!(loaded.surfaces > 0);
+                loaded.builder.build().unwrap();
+            }
+            Err(error) => {
+                println!("{}\n{error}", path.display());
+                let place = error.errors[0].place.as_ref().unwrap();
+                assert!(place.file.contains(&*path.file_stem().unwrap().to_string_lossy()));
+                let is_mesh = has_extension(&path, &["obj"]);
+                assert!(is_mesh || error.to_string().contains("known: scn, obj"), "{error}");
+            }
+        }
+        assert!(start.elapsed() < Duration::from_secs(5), "{} took {:?}", path.display(), start.elapsed());
+    }
+}
+
+#[test]
+fn meshes_beside_other_scenes_load_too() {
+    let Some(folder) = shared("scenes") else { return };
+    for path in files_below(&folder).into_iter().filter(|p| has_extension(p, &["obj"])) {
+        if let Err(error) = load_one(&path, false) {
+            assert!(error.errors[0].place.is_some(), "{}:\n{error}", path.display());
+            println!("{error}");
+        }
+    }
+}
+
+#[test]
+fn pictures_of_other_programs_can_be_read() {
+    let Some(folder) = shared("references") else { return };
+    let folders = [folder, shared("scenes").unwrap()];
+    let pictures = folders.iter().flat_map(|f| files_below(f));
+    for path in pictures.filter(|p| has_extension(p, &["exr", "hdr", "pfm"])) {
+        match read_image(&path) {
+            Ok(file) => {
+                let (sum, count) = file
+                    .image
+                    .data
+                    .iter()
+                    .flatten()
+                    .filter(|x| x.is_finite())
+                    .fold((0.0, 0_usize), |(sum, count), x| (sum + f64::from(*x), count + 1));
+                let layers: Vec<&str> = file.layers.iter().map(|(name, _)| name.as_str()).collect();
+                let size = (file.image.width, file.image.height);
+                println!("{} {size:?} mean {:.4} {layers:?}", path.display(), sum / count as f64);
+            }
+            Err(error) => println!("{error}"),
+        }
+    }
+}
+
+#[test]
+fn the_reference_of_the_cornell_box_has_its_known_mean() {
+    let Some(folder) = shared("references/nrenderer") else { return };
+    let file = read_image(&folder.join("path_tracing_cornel_inf_box.exr")).unwrap();
+    let image = &file.image;
+    assert_eq!((image.width, image.height), (500, 500));
+    let pixels = image.data.len() as f64;
+    let mean = [0, 1, 2].map(|c| image.data.iter().map(|p| f64::from(p[c])).sum::<f64>() / pixels);
+    for (mean, known) in mean.into_iter().zip([0.7344, 0.5312, 0.3647]) {
+        assert!((mean - known).abs() < 2e-4, "{mean} {known}");
+    }
+    // The back wall is bright, the lamp is near the upper edge: rows run downwards.
+    assert!(image.data[..500 * 60].iter().any(|p| p[0] > 40.0));
+}
