@@ -1,0 +1,70 @@
+//! From flags to an integrator.
+use crate::{args::AlgorithmArgs, compat::Habits, failure::Failure};
+use std::collections::BTreeMap;
+use sunfleck::integrator::{Integrator, Params, find};
+
+/// An integrator and what the user said about it.
+pub(super) struct Algorithm {
+    name: &'static str,
+    settings: BTreeMap<String, String>,
+    made: Box<dyn Integrator>,
+}
+
+impl Algorithm {
+    pub(super) fn new(args: &AlgorithmArgs, habits: &Habits) -> Result<Self, Failure> {
+        // The command line accepts names of the registry only.
+        let entry =
+            find(&args.integrator).ok_or_else(|| Failure::input(format!("no integrator `{}`", args.integrator)))?;
+        let settings = settings(args, habits).map_err(Failure::input)?;
+        let mut params = Params::default();
+        settings.iter().for_each(|(key, value)| params.set(key, value));
+        let made = entry.build(params).map_err(|e| Failure::input(e.to_string()))?;
+        Ok(Self { name: entry.name, settings, made })
+    }
+    /// Its word.
+    pub(super) fn name(&self) -> &'static str {
+        self.name
+    }
+    /// Settings that differ from the integrator's own defaults, or may.
+    pub(super) fn settings(&self) -> &BTreeMap<String, String> {
+        &self.settings
+    }
+    pub(super) fn integrator(&self) -> &dyn Integrator {
+        &*self.made
+    }
+    /// Camera rays a pixel in one pass: one, unless the algorithm has a setting for it.
+    pub(super) fn samples_per_pass(&self) -> u64 {
+        self.settings.get("samples").and_then(|n| n.parse::<f64>().ok()).map_or(1, |n| n.max(1.0) as u64)
+    }
+    /// Name and settings in one line.
+    pub(super) fn words(&self) -> String {
+        let settings: Vec<String> = self.settings.iter().map(|(k, v)| format!("{k}={v}")).collect();
+        if settings.is_empty() { self.name.to_owned() } else { format!("{} ({})", self.name, settings.join(", ")) }
+    }
+}
+
+/// All settings by name. One said twice in different words is a mistake, not an order of precedence.
+fn settings(args: &AlgorithmArgs, habits: &Habits) -> Result<BTreeMap<String, String>, String> {
+    let short = [
+        ("photons", &args.photons),
+        ("nearest", &args.nearest),
+        ("radius", &args.radius),
+        ("final-gather", &args.final_gather),
+    ];
+    let shorthands = short.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value.clone()?)));
+    let mut all = BTreeMap::new();
+    for (key, value) in shorthands.chain(args.settings.iter().cloned()) {
+        if all.insert(key.clone(), value).is_some() {
+            return Err(format!("the setting `{key}` is given twice"));
+        }
+    }
+    match (habits.scatterings(args.depth)?, all.get("scatterings")) {
+        (Some(_), Some(said)) if args.depth.is_some() => {
+            return Err(format!("--depth and --set scatterings={said} say the same thing twice"));
+        }
+        (Some(n), None) => drop(all.insert("scatterings".to_owned(), n.to_string())),
+        // A habit gives way to what was said.
+        _ => {}
+    }
+    Ok(all)
+}

@@ -1,0 +1,126 @@
+//! `sunfleck render`: check everything that can be checked, load, render, write, tell.
+//!
+//! [`algorithm`] builds the integrator, [`outputs`] checks and writes files, [`interrupt`] listens to Ctrl-C, [`show`] and
+//! [`record`] tell people and programs how it goes.
+mod algorithm;
+mod interrupt;
+mod outputs;
+mod record;
+mod show;
+mod summary;
+
+use crate::{
+    args::{BudgetArgs, JsonStyle, PictureArgs, RenderArgs},
+    compat::Habits,
+    console,
+    failure::Failure,
+    load::{self, Loaded},
+};
+use algorithm::Algorithm;
+use anyhow::Context;
+use formats::{image::MAX_PIXELS, load::RenderDefaults};
+use interrupt::Interrupt;
+use outputs::Outputs;
+use record::{Record, StoppedBy};
+use show::Show;
+use std::ops::ControlFlow;
+use sunfleck::{
+    film::{Film, FilmSpec},
+    render::{Budget, Progress, Settings, render},
+};
+
+pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
+    let habits = Habits::of(args.compat);
+    let algorithm = Algorithm::new(&args.algorithm, &habits)?;
+    let outputs = Outputs::check(&args.output, &args.scene.files)?;
+    use_threads(args.budget.threads)?;
+    let loaded = load::scene(&args.scene, &args.camera, args.compat)?;
+    let settings = Settings {
+        spec: film_spec(&args.picture, &loaded.defaults)?,
+        seed: args.budget.seed,
+        budget: budget(&args.budget, &habits, algorithm.samples_per_pass()),
+    };
+    let interrupt = Interrupt::listen().map_err(Failure::Work)?;
+    let job = Job { args, loaded, algorithm, settings };
+    if !args.output.quiet {
+        job.loaded.say_warnings();
+        console::say(summary::before(&job, &outputs));
+    }
+    finish(&job, &outputs, job.passes(&interrupt))
+}
+
+/// Writes, then tells: a picture is worth more than a message that did not arrive.
+fn finish(job: &Job, outputs: &Outputs, done: Done) -> Result<(), Failure> {
+    let written = outputs.write(&done.film, job.loaded.defaults.tone, &record::metadata(job, &done.film));
+    let output = &job.args.output;
+    let wants_json = output.json.is_some() && done.told.is_ok();
+    let told = if wants_json { console::print_json(&Record::new(job, &done, &written)) } else { Ok(()) };
+    if !output.quiet {
+        console::say(summary::after(&done, &written));
+    }
+    outputs::failures(written)?;
+    done.told.and(told)?;
+    if done.stopped_by == StoppedBy::Interrupt { Err(Failure::Interrupted) } else { Ok(()) }
+}
+
+/// All that a render needs.
+struct Job<'a> {
+    args: &'a RenderArgs,
+    loaded: Loaded,
+    algorithm: Algorithm,
+    settings: Settings,
+}
+
+/// What it gave.
+struct Done {
+    film: Film,
+    progress: Progress,
+    stopped_by: StoppedBy,
+    /// Whether standard output took every line.
+    told: Result<(), Failure>,
+}
+
+impl Job<'_> {
+    /// Renders until the budget is spent or the user has had enough.
+    fn passes(&self, interrupt: &Interrupt) -> Done {
+        let output = &self.args.output;
+        let budget = self.settings.budget;
+        let mut show = Show::new(output.quiet, budget);
+        let mut last = None;
+        let mut told = Ok(());
+        let film = render(&self.loaded.scene, self.algorithm.integrator(), &self.settings, |progress, _| {
+            show.pass(progress);
+            last = Some(*progress);
+            if output.json == Some(JsonStyle::Lines) && told.is_ok() {
+                told = console::print_json(&record::pass(progress));
+            }
+            if interrupt.requested() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        });
+        show.end();
+        let progress = last.expect("a render has at least one pass");
+        let stopped_by = StoppedBy::new(interrupt.requested(), &budget, progress.passes);
+        Done { film, progress, stopped_by, told }
+    }
+}
+
+fn film_spec(picture: &PictureArgs, defaults: &RenderDefaults) -> Result<FilmSpec, Failure> {
+    let (width, height) = (picture.width.unwrap_or(defaults.width), picture.height.unwrap_or(defaults.height));
+    let pixels = u64::from(width) * u64::from(height);
+    if pixels > MAX_PIXELS {
+        let message = format!("a picture of {width}×{height} has {pixels} pixels, more than {MAX_PIXELS}");
+        return Err(Failure::input(message));
+    }
+    Ok(FilmSpec { width, height, filter: defaults.filter })
+}
+
+/// With a time and no passes, only the time counts.
+fn budget(args: &BudgetArgs, habits: &Habits, samples_per_pass: u64) -> Budget {
+    let said = args.passes.or(args.spp.map(|n| n.div_ceil(samples_per_pass)));
+    let passes = if args.time.is_some() { said } else { said.or(Some(habits.passes)) };
+    Budget { passes, time: args.time }
+}
+
+fn use_threads(threads: Option<usize>) -> Result<(), Failure> {
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
+    builder.build_global().context("cannot start the threads").map_err(Failure::Work)
+}

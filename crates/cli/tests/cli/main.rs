@@ -1,0 +1,9 @@
+//! Runs the built program as a user would.
+mod diff;
+mod errors;
+mod help;
+mod render;
+#[cfg(unix)]
+mod signals;
+mod tables;
+mod workplace;
