@@ -85,30 +85,30 @@ fn agree(what: &str, scene: &Scene, settings: (&str, &str), batches: u64, passes
 #[test]
 fn ppm_agrees_with_path_tracing_in_a_closed_room() {
     let scene = small_cornell();
-    agree("connect", &scene, ("ppm", "photons=4000 radius=0.08"), 16, (48, 48), 0.005);
-    agree("photons", &scene, ("ppm", "photons=4000 radius=0.08 direct=photons"), 16, (48, 48), 0.01);
+    agree("connect", &scene, ("ppm", "photons=4000 radius=0.08"), 12, (48, 48), 0.005);
+    agree("photons", &scene, ("ppm", "photons=4000 radius=0.08 direct=photons"), 12, (48, 48), 0.01);
 }
 
 #[test]
 fn ppm_with_its_own_radius_agrees_with_path_tracing_after_some_hundred_passes() {
     let scene = room(Rgb::splat(8.0), 0.8).build().unwrap();
-    agree("own radius", &scene, ("ppm", ""), 8, (64, 300), 0.01);
+    agree("own radius", &scene, ("ppm", ""), 8, (64, 200), 0.01);
 }
 
 #[test]
 fn photonmap_agrees_with_path_tracing_in_a_closed_room() {
     let scene = small_cornell();
-    agree("nearest", &scene, ("photonmap", SHARP), 10, (48, 24), 0.01);
-    agree("gather", &scene, ("photonmap", "photons=4000 nearest=12 max-radius=0.2 final-gather=4"), 10, (48, 12), 0.01);
+    agree("nearest", &scene, ("photonmap", SHARP), 8, (48, 16), 0.01);
+    agree("gather", &scene, ("photonmap", "photons=4000 nearest=12 max-radius=0.2 final-gather=4"), 8, (48, 8), 0.01);
 }
 
 #[test]
 fn photons_agree_with_path_tracing_under_a_glass_ball() {
     let scene = caustic();
-    agree("ppm", &scene, ("ppm", "photons=4000 radius=0.06"), 12, (160, 64), 0.01);
-    agree("photonmap", &scene, ("photonmap", SHARP), 10, (160, 24), 0.02);
+    agree("ppm", &scene, ("ppm", "photons=4000 radius=0.06"), 10, (96, 48), 0.01);
+    agree("photonmap", &scene, ("photonmap", SHARP), 8, (96, 16), 0.02);
     let gather = "photons=4000 nearest=8 max-radius=0.15 final-gather=4";
-    agree("gather", &scene, ("photonmap", gather), 10, (160, 12), 0.02);
+    agree("gather", &scene, ("photonmap", gather), 8, (96, 8), 0.02);
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn leaning_normals_agree_with_path_tracing() {
     });
     for (what, scene) in [("matt", &grey), ("glossy", &glossy)] {
         let ppm = "photons=4000 radius=0.06 direct=photons kernel=epanechnikov";
-        agree(what, scene, ("ppm", ppm), 10, (48, 48), 0.01);
+        agree(what, scene, ("ppm", ppm), 10, (32, 32), 0.01);
     }
 }
 
@@ -134,12 +134,12 @@ fn every_number_of_scatterings_agrees_with_path_tracing() {
             let it = make(name, &format!("scatterings={limit} {settings}"));
             measure(scene, &*it, 16, 8, passes)
         };
-        let path = picture("path", "", 192);
+        let path = picture("path", "", 128);
         for (name, settings, passes) in [
-            ("ppm", "photons=4000 radius=0.08", 32),
-            ("ppm", "photons=4000 radius=0.08 direct=photons", 32),
-            ("photonmap", SHARP, 16),
-            ("photonmap", "photons=4000 nearest=8 max-radius=0.2 final-gather=2", 16),
+            ("ppm", "photons=4000 radius=0.08", 16),
+            ("ppm", "photons=4000 radius=0.08 direct=photons", 16),
+            ("photonmap", SHARP, 24),
+            ("photonmap", "photons=4000 nearest=8 max-radius=0.2 final-gather=2", 8),
         ] {
             let other = picture(name, settings, passes);
             let (worst, _) = other.deviation(&path, 0.02);
