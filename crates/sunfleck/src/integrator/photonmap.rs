@@ -107,8 +107,8 @@ pub struct PhotonMapper {
 impl Default for PhotonMapper {
     /// Chosen on a Cornell box at 200² and a glass ball under a large lamp at 128², 8 passes of 4 camera rays. Error of
     /// 10 x 10 blocks in the box with 5e4, 2e5 and 8e5 photons: 2.0, 1.2 and 0.9 % in 2.6, 4.3 and 9.7 s of processor
-    /// time; with 20 (constant kernel), 50, 100 and 200 nearest: 1.2, 1.2, 1.3 and 1.6 %, and under the ball 1.1, 0.9, 1.0 and 1.2 %;
-    /// without new photons for each pass 2.8 %. Kernels differ by less than 5 % of the error.
+    /// time; with 20 (constant kernel), 50, 100 and 200 nearest: 1.2, 1.2, 1.3 and 1.6 %, and under the ball 1.1, 0.9, 1.0
+    /// and 1.2 %; without new photons for each pass 2.8 %. Kernels differ by less than 5 % of the error.
     fn default() -> Self {
         Self {
             limits: Limits::default(),
