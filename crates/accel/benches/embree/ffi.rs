@@ -6,12 +6,14 @@ use accel::Ray;
 use libloading::Library;
 use std::{
     ffi::{c_char, c_uint, c_void},
+    mem::ManuallyDrop,
     path::Path,
-    ptr::{null, null_mut},
+    ptr::null_mut,
     sync::atomic::{AtomicIsize, Ordering::Relaxed},
 };
 
 type Handle = *mut c_void;
+type Monitor = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
 
 /// `RTCRayHit`, with room to spare for the fields of later minor versions.
 #[repr(C, align(16))]
@@ -70,12 +72,13 @@ unsafe extern "C" fn count_memory(_: *mut c_void, bytes: isize, _post: bool) -> 
 
 /// A committed scene of one triangle mesh. Device and scene live until the process ends.
 pub(crate) struct Scene {
-    scene: Handle,
+    handle: Handle,
     intersect: unsafe extern "C" fn(Handle, *mut RayHit, *mut c_void),
     occluded: unsafe extern "C" fn(Handle, *mut RayHit, *mut c_void),
     /// What Embree says that it allocated while building and kept.
     pub(crate) bytes: usize,
-    _library: Library,
+    /// Never unloaded, as threads of Embree's task scheduler may still be running in it.
+    _library: ManuallyDrop<Library>,
 }
 
 // SAFETY: Embree allows any number of threads to query a committed scene.
@@ -106,7 +109,6 @@ impl Scene {
         let config = format!("threads={threads}\0");
         let device = call!(library, "rtcNewDevice", (*const c_char) -> Handle, config.as_ptr().cast());
         BYTES.store(0, Relaxed);
-        type Monitor = unsafe extern "C" fn(*mut c_void, isize, bool) -> bool;
         call!(library, "rtcSetDeviceMemoryMonitorFunction", (Handle, Monitor, *mut c_void) -> (),
             device, count_memory, null_mut());
         let scene = call!(library, "rtcNewScene", (Handle) -> Handle, device);
@@ -128,7 +130,13 @@ impl Scene {
         call!(library, "rtcCommitScene", (Handle) -> (), scene);
         // SAFETY: names and signatures are those of Embree's header, and `library` is kept.
         let (intersect, occluded) = unsafe { (*library.get(b"rtcIntersect1\0")?, *library.get(b"rtcOccluded1\0")?) };
-        Ok(Self { scene, intersect, occluded, bytes: BYTES.load(Relaxed) as usize, _library: library })
+        Ok(Self {
+            handle: scene,
+            intersect,
+            occluded,
+            bytes: BYTES.load(Relaxed) as usize,
+            _library: ManuallyDrop::new(library),
+        })
     }
 
     /// Distance of the nearest hit.
@@ -136,7 +144,7 @@ impl Scene {
     pub(crate) fn closest(&self, ray: &Ray) -> Option<f32> {
         let mut query = RayHit::new(ray);
         // SAFETY: `query` starts with an RTCRayHit, initialised and aligned; null asks for default arguments.
-        unsafe { (self.intersect)(self.scene, &raw mut query, null::<c_void>().cast_mut()) };
+        unsafe { (self.intersect)(self.handle, &raw mut query, null_mut()) };
         (query.geometry != c_uint::MAX).then_some(query.far)
     }
 
@@ -145,7 +153,7 @@ impl Scene {
     pub(crate) fn occluded(&self, ray: &Ray) -> bool {
         let mut query = RayHit::new(ray);
         // SAFETY: `query` starts with an RTCRay, initialised and aligned; null asks for default arguments.
-        unsafe { (self.occluded)(self.scene, &raw mut query, null::<c_void>().cast_mut()) };
+        unsafe { (self.occluded)(self.handle, &raw mut query, null_mut()) };
         query.far < 0.0
     }
 }

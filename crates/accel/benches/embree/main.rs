@@ -14,7 +14,7 @@ mod ffi;
 mod scenes;
 
 use accel::{Bvh, Geometry, Quality, Ray};
-use scenes::{Mesh, RaySet};
+use scenes::Mesh;
 use std::{
     path::PathBuf,
     process::Command,
@@ -83,7 +83,7 @@ fn find_embree() -> Option<PathBuf> {
 
 fn compare(name: &str, mesh: &Mesh, library: &std::path::Path, options: &Options) {
     println!("\n## Scene {name}: {} triangles", mesh.indices.len());
-    let positions: Vec<[f32; 3]> = mesh.positions.iter().map(|p| p.to_array()).collect();
+    let positions: Vec<[f32; 3]> = mesh.positions.iter().map(glam::Vec3::to_array).collect();
     let geometry = Geometry::Triangles { positions: &mesh.positions, indices: &mesh.indices };
     let quality = if options.quality == Quality::High { 2 } else { 1 };
     let mut kept = None;
@@ -107,13 +107,13 @@ fn compare(name: &str, mesh: &Mesh, library: &std::path::Path, options: &Options
 }
 
 /// One row per ray set: Mrays per CPU second of both and their ratio, medians over `reps` interleaved runs.
-fn table(embree: &ffi::Scene, own: &Bvh, sets: &[RaySet], threads: usize, reps: usize) {
+fn table(embree: &ffi::Scene, own: &Bvh, sets: &[scenes::RaySet], threads: usize, reps: usize) {
     println!(
         "\n| {threads} thread(s) | rays | Embree Mrays/CPU-s | own Mrays/CPU-s | ratio | Embree hits | own hits |"
     );
     println!("|---|---|---|---|---|---|---|");
     let mut log_sum = 0.0;
-    for RaySet { name, rays, any } in sets {
+    for scenes::RaySet { name, rays, any } in sets {
         let mut rates = [Vec::new(), Vec::new(), Vec::new()];
         let mut hits = [0, 0];
         for _ in 0..reps {

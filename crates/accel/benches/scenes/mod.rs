@@ -6,7 +6,7 @@
 mod noise;
 mod rays;
 
-pub(crate) use rays::{RaySet, ray_sets};
+pub(crate) use rays::*;
 
 use glam::Vec3;
 use std::collections::HashMap;

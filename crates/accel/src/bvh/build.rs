@@ -30,8 +30,7 @@ pub(super) struct Binary {
 /// A range of references with its boxes.
 struct Range<'a> {
     refs: &'a mut [Ref],
-    bounds: Bounds,
-    centres: Bounds,
+    side: Side,
     depth: usize,
     /// How many references may be added by cutting.
     budget: usize,
@@ -47,10 +46,12 @@ impl Range<'_> {
 /// What is the same for all ranges.
 struct Builder<'a> {
     geometries: &'a [Geometry<'a>],
-    /// Spatial splits are looked for where the sides of the best object split share more surface than this, and more
-    /// than this part of the surface around both.
-    overlap: f32,
-    relative_overlap: f32,
+    /// Surface beyond which a reference is not cut. Walls stay whole, near the root, where a ray that asks for any hit
+    /// finds them at once.
+    largest: f32,
+    /// Spatial splits are looked for where the references' surfaces add up to this many times that of their box: in a
+    /// smooth mesh to about 3, among long slivers to hundreds.
+    crowd: f32,
 }
 
 /// The binary hierarchy over `refs`, which are reordered; empty if there are none.
@@ -59,18 +60,17 @@ pub(super) fn build(refs: &mut [Ref], geometries: &[Geometry], quality: Quality)
         return Vec::new();
     }
     let side = Side::measure(refs);
-    // Stich et al. 2009 look for spatial splits from 1e-5 of the root's surface.
-    let (extra, overlap, relative_overlap) = match quality {
-        Quality::Default => (0.15, 1e-5, 0.15),
-        Quality::High => (1.0, 1e-6, 0.0),
+    let (extra, crowd) = match quality {
+        Quality::Default => (0.1, 8.0),
+        Quality::High => (1.0, 2.5),
     };
-    let builder = Builder { geometries, overlap: side.bounds.half_area() * overlap, relative_overlap };
+    let builder = Builder { geometries, largest: side.bounds.half_area() * 0.02, crowd };
     let budget = (refs.len() as f32 * extra) as usize;
-    let range = Range { bounds: side.bounds, centres: side.centres, refs, depth: 0, budget };
+    let mut range = Range { refs, side, depth: 0, budget };
     let blank = Binary { entry: range.refs[0], plan: Plan::PRIMITIVE, size: Size::default() };
     let mut nodes = large_vec(range.room());
     nodes.resize(range.room(), blank);
-    builder.subdivide(range, &mut nodes);
+    builder.subdivide(&mut range, &mut nodes);
     nodes
 }
 
@@ -80,19 +80,23 @@ struct Side {
     bounds: Bounds,
     /// The box around the doubled centres.
     centres: Bounds,
-    /// Sum of half surfaces, by which the budget is shared.
+    /// Sum of the references' half surfaces, by which the budget is shared.
     weight: f32,
+    /// The greatest of them.
+    largest: f32,
 }
 
 impl Side {
-    const EMPTY: Self = Self { bounds: Bounds::EMPTY, centres: Bounds::EMPTY, weight: 0.0 };
+    const EMPTY: Self = Self { bounds: Bounds::EMPTY, centres: Bounds::EMPTY, weight: 0.0, largest: 0.0 };
 
     #[inline(always)]
     fn add(&mut self, reference: &Ref) {
         let bounds = reference.bounds();
         self.bounds.grow(&bounds);
         self.centres.grow_point(reference.centre2());
-        self.weight += bounds.half_area();
+        let half_area = bounds.half_area();
+        self.weight += half_area;
+        self.largest = self.largest.max(half_area);
     }
 
     fn measure(refs: &[Ref]) -> Self {
@@ -104,17 +108,17 @@ impl Side {
 }
 
 impl Builder<'_> {
-    fn subdivide(&self, range: Range, nodes: &mut [Binary]) -> Forest {
-        let bounds = range.bounds;
-        if let &mut [reference] = range.refs {
+    fn subdivide(&self, range: &mut Range, nodes: &mut [Binary]) -> Forest {
+        let bounds = range.side.bounds;
+        if let &mut [reference] = &mut *range.refs {
             let is_triangle = matches!(reference.owner(), Owner::Triangle { .. });
             let forest = Forest::primitive(bounds.half_area(), is_triangle);
             nodes[0] = Binary { entry: reference, plan: Plan::PRIMITIVE, size: forest.size() };
             return forest;
         }
         let splittable = range.refs.len() > 2 && range.depth < FAIR_DEPTH;
-        let object = if splittable { ObjectSplit::find(range.refs, &range.centres) } else { None };
-        if let Some((mut left, mut right)) = self.spatial(&range, object.as_ref()) {
+        let object = if splittable { ObjectSplit::find(range.refs, &range.side.centres) } else { None };
+        if let Some((mut left, mut right)) = self.spatial(range, object.as_ref()) {
             let budget = range.budget + range.refs.len() - left.len() - right.len();
             let sides = [Side::measure(&left), Side::measure(&right)];
             return self.join(children(&mut left, &mut right, sides, range.depth, budget), &bounds, nodes);
@@ -133,12 +137,11 @@ impl Builder<'_> {
     /// Both sides of a spatial split, if one is worth looking for and cheaper than the object split.
     fn spatial(&self, range: &Range, object: Option<&ObjectSplit>) -> Option<(Vec<Ref>, Vec<Ref>)> {
         let object = object?;
-        let shared = object.left.shared_half_area(&object.right);
-        let worth_it = self.overlap.max(self.relative_overlap * range.bounds.half_area());
-        if range.budget == 0 || shared <= worth_it {
+        let Side { bounds, weight, largest, .. } = range.side;
+        if range.budget == 0 || largest > self.largest || weight < self.crowd * bounds.half_area() {
             return None;
         }
-        let split = SpatialSplit::find(range.refs, &range.bounds, self.geometries, range.budget)?;
+        let split = SpatialSplit::find(range.refs, &bounds, self.geometries, range.budget)?;
         if split.cost >= object.cost {
             return None;
         }
@@ -148,14 +151,14 @@ impl Builder<'_> {
     }
 
     /// Builds both sides and writes the node above them.
-    fn join(&self, [left, right]: [Range; 2], bounds: &Bounds, nodes: &mut [Binary]) -> Forest {
+    fn join(&self, [mut left, mut right]: [Range; 2], bounds: &Bounds, nodes: &mut [Binary]) -> Forest {
         let (node, below) = nodes.split_first_mut().expect("a range has a node");
         let (left_nodes, right_nodes) = below.split_at_mut(left.room());
         let right_at = left_nodes.len() as u32 + 1;
         let (left, right) = if left.refs.len() + right.refs.len() > PARALLEL {
-            rayon::join(|| self.subdivide(left, left_nodes), || self.subdivide(right, right_nodes))
+            rayon::join(|| self.subdivide(&mut left, left_nodes), || self.subdivide(&mut right, right_nodes))
         } else {
-            (self.subdivide(left, left_nodes), self.subdivide(right, right_nodes))
+            (self.subdivide(&mut left, left_nodes), self.subdivide(&mut right, right_nodes))
         };
         let (forest, plan) = Forest::join(&left, &right, bounds.half_area());
         *node = Binary { entry: Ref::numbered(bounds, right_at), plan, size: forest.size() };
@@ -173,8 +176,7 @@ fn children<'a>(
 ) -> [Range<'a>; 2] {
     let share = f64::from(sides[0].weight) / (f64::from(sides[0].weight) + f64::from(sides[1].weight));
     let left_budget = ((budget as f64 * share) as usize).min(budget);
-    let range =
-        |refs, side: Side, budget| Range { refs, bounds: side.bounds, centres: side.centres, depth: depth + 1, budget };
+    let range = |refs, side, budget| Range { refs, side, depth: depth + 1, budget };
     [range(left, sides[0], left_budget), range(right, sides[1], budget - left_budget)]
 }
 

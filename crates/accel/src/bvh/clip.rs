@@ -50,12 +50,6 @@ impl Bounds {
     fn intersection(&self, other: &Self) -> Self {
         Self { lo: self.lo.max(other.lo), hi: self.hi.min(other.hi) }
     }
-
-    /// How much two boxes share, as half the surface of what they share; 0 if they are apart.
-    pub(super) fn shared_half_area(&self, other: &Self) -> f32 {
-        let shared = self.intersection(other);
-        if shared.lo.cmple(shared.hi).all() { shared.half_area() } else { 0.0 }
-    }
 }
 
 impl Ref {

@@ -78,10 +78,10 @@ struct Emitter<'a> {
 
 impl Emitter<'_> {
     /// A root node whose only child is a leaf.
-    fn single_leaf(&self, job: Job) {
+    fn single_leaf(&self, mut job: Job) {
         let mut node = Node::EMPTY;
         let bounds = self.binary[0].entry.bounds();
-        node.set(0, bounds.lo.xyz(), bounds.hi.xyz(), self.leaf(0, job.blocks));
+        node.set(0, bounds.lo.xyz(), bounds.hi.xyz(), self.leaf(0, &mut job.blocks));
         job.nodes.places[0].write(node);
     }
 
@@ -90,20 +90,17 @@ impl Emitter<'_> {
         let mut roots = Vec::with_capacity(WIDTH);
         let plan = self.binary[job.at].plan;
         self.split(job.at, plan.left_roots(WIDTH), WIDTH, &mut roots);
-        // Rays that ask for any hit take the last child first: small subtrees are cheap to try, large boxes likely hit.
-        roots.sort_by(|&a, &b| {
-            let (a, b) = (&self.binary[a], &self.binary[b]);
-            let area = |node: &Binary| node.entry.bounds().half_area();
-            b.size.blocks.cmp(&a.size.blocks).then(area(a).total_cmp(&area(b)))
-        });
+        // Rays that ask for any hit take the last child first: the largest box is the likeliest to hold one.
+        let area = |at: &usize| self.binary[*at].entry.bounds().half_area();
+        roots.sort_by(|a, b| area(a).total_cmp(&area(b)));
         let own = job.nodes.take(1);
         let mut node = Node::EMPTY;
         let mut inner = Vec::with_capacity(WIDTH);
         for (slot, &at) in roots.iter().enumerate() {
             let Binary { entry, plan, size } = self.binary[at];
-            let (nodes, blocks) = (job.nodes.take(size.nodes), job.blocks.take(size.blocks));
+            let (nodes, mut blocks) = (job.nodes.take(size.nodes), job.blocks.take(size.blocks));
             let child = if plan.is_leaf() {
-                self.leaf(at, blocks)
+                self.leaf(at, &mut blocks)
             } else {
                 let child = Child::inner(nodes.first);
                 inner.push(Job { at, nodes, blocks });
@@ -138,7 +135,7 @@ impl Emitter<'_> {
     }
 
     /// Writes the leaf for everything below `at`.
-    fn leaf(&self, at: usize, blocks: Places<Block>) -> Child {
+    fn leaf(&self, at: usize, blocks: &mut Places<Block>) -> Child {
         let mut owners = Vec::with_capacity(LANES * Child::MAX_BLOCKS);
         self.owners(at, &mut owners);
         match owners[0] {

@@ -7,7 +7,10 @@
 //! distance). The third source, rounding in the triangle test, is in proportion to the triangle's size and is met by
 //! growing the boxes when a node is written.
 
-use super::{node::Node, simd::Simd};
+use super::{
+    node::{Node, WIDTH},
+    simd::Simd,
+};
 use glam::Vec3;
 
 /// A ray prepared for box tests.
@@ -17,9 +20,13 @@ pub(super) struct Slabs<S: Simd> {
     near_offset: [S::F8; 3],
     far_scale: [S::F8; 3],
     far_offset: [S::F8; 3],
-    /// For each axis the plane of the node that the ray meets first; the other one differs in bit 0. Always below 6.
-    near_plane: [usize; 3],
+    /// For each axis where in the node the planes are that the ray meets first, in bytes; those it meets last are at
+    /// the place that differs in bit 5. Always one of the six rows.
+    near_planes: [usize; 3],
 }
+
+/// Bytes of one row of planes.
+const ROW: usize = WIDTH * size_of::<f32>();
 
 /// Reciprocals are clamped to this, so that a plane times a reciprocal stays finite for coordinates up to 1e18.
 const MAX_RECIPROCAL: f32 = 1e18;
@@ -30,7 +37,7 @@ impl<S: Simd> Slabs<S> {
         const RELATIVE: f32 = 4.0 * f32::EPSILON;
         let zero = [s.splat8(0.0); 3];
         let mut slabs =
-            Self { near_scale: zero, near_offset: zero, far_scale: zero, far_offset: zero, near_plane: [0, 2, 4] };
+            Self { near_scale: zero, near_offset: zero, far_scale: zero, far_offset: zero, near_planes: [0; 3] };
         for axis in 0..3 {
             let clamped = d[axis].abs().max(1.0 / MAX_RECIPROCAL).copysign(d[axis]);
             let reciprocal = 1.0 / clamped;
@@ -41,7 +48,7 @@ impl<S: Simd> Slabs<S> {
             slabs.near_offset[axis] = s.splat8(-o[axis] * near - slack);
             slabs.far_scale[axis] = s.splat8(far);
             slabs.far_offset[axis] = s.splat8(-o[axis] * far + slack);
-            slabs.near_plane[axis] = 2 * axis + usize::from(reciprocal < 0.0);
+            slabs.near_planes[axis] = (2 * axis + usize::from(reciprocal < 0.0)) * ROW;
         }
         slabs
     }
@@ -51,10 +58,11 @@ impl<S: Simd> Slabs<S> {
     pub(super) fn enter(&self, s: S, node: &Node, tmin: S::F8, tmax: S::F8) -> (S::F8, u32) {
         let (mut near, mut far) = (tmin, tmax);
         for axis in 0..3 {
-            // SAFETY: `near_plane` is below 6 by construction, and so is its neighbour.
+            let near_planes = self.near_planes[axis];
+            // SAFETY: both places are rows of the node's planes, by construction.
             let (first, second) = unsafe {
-                let near_plane = self.near_plane[axis];
-                (node.planes.get_unchecked(near_plane), node.planes.get_unchecked(near_plane ^ 1))
+                let rows = node.planes.as_ptr();
+                (&*rows.byte_add(near_planes), &*rows.byte_add(near_planes ^ ROW))
             };
             // A NaN is dropped, as `min` and `max` return their second operand then.
             near = s.max8(s.fmadd8(s.load8(first), self.near_scale[axis], self.near_offset[axis]), near);

@@ -26,6 +26,7 @@ struct Ruler {
     axis: usize,
     start: f32,
     width: f32,
+    per_width: f32,
 }
 
 impl Ruler {
@@ -33,7 +34,7 @@ impl Ruler {
         let (start, width) = (bounds.lo[axis], (bounds.hi[axis] - bounds.lo[axis]) / BINS as f32);
         // Planes must be told apart from each other in f32.
         let fine = bounds.lo[axis].abs().max(bounds.hi[axis].abs()) * (16.0 * f32::EPSILON);
-        (width > fine).then_some(Self { axis, start, width })
+        (width > fine).then_some(Self { axis, start, width, per_width: 1.0 / width })
     }
 
     /// The plane where a bin begins.
@@ -44,7 +45,7 @@ impl Ruler {
     /// First and last bin of a reference.
     #[inline(always)]
     fn bins(&self, bounds: &Bounds) -> (usize, usize) {
-        let bin = |x: f32| (((x - self.start) / self.width) as usize).min(BINS - 1);
+        let bin = |x: f32| (((x - self.start) * self.per_width) as usize).min(BINS - 1);
         (bin(bounds.lo[self.axis]), bin(bounds.hi[self.axis]))
     }
 }

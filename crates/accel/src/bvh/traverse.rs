@@ -124,7 +124,7 @@ impl<S: Simd, F: Fn(&Hit) -> bool> Walk<'_, S, F> {
             if mask == 0 {
                 return None;
             }
-            if mask & (mask - 1) == 0 {
+            if mask.is_power_of_two() {
                 child = node.children[mask.trailing_zeros() as usize % WIDTH];
                 continue;
             }

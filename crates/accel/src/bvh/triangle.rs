@@ -43,7 +43,7 @@ pub(super) struct Shear<S: Simd> {
     axes: [usize; 3],
     o: [S::F4; 3],
     /// d.x/d.z, d.y/d.z, 1/d.z in permuted axes.
-    shear: [S::F4; 3],
+    slopes: [S::F4; 3],
 }
 
 impl<S: Simd> Shear<S> {
@@ -63,7 +63,7 @@ impl<S: Simd> Shear<S> {
         Self {
             axes,
             o: axes.map(|k| s.splat4(o[k])),
-            shear: [s.splat4(d[axes[0]] * inv_z), s.splat4(d[axes[1]] * inv_z), s.splat4(inv_z)],
+            slopes: [s.splat4(d[axes[0]] * inv_z), s.splat4(d[axes[1]] * inv_z), s.splat4(inv_z)],
         }
     }
 }
@@ -85,8 +85,8 @@ pub(super) fn intersect<S: Simd>(s: S, block: &Block, ray: &Shear<S>, tmin: f32,
     let (mut y, mut z) = (x, x);
     for (i, vertex) in block.vertices.iter().enumerate() {
         z[i] = s.sub4(s.load4(&vertex[kz]), ray.o[2]);
-        x[i] = s.fnmadd4(ray.shear[0], z[i], s.sub4(s.load4(&vertex[kx]), ray.o[0]));
-        y[i] = s.fnmadd4(ray.shear[1], z[i], s.sub4(s.load4(&vertex[ky]), ray.o[1]));
+        x[i] = s.fnmadd4(ray.slopes[0], z[i], s.sub4(s.load4(&vertex[kx]), ray.o[0]));
+        y[i] = s.fnmadd4(ray.slopes[1], z[i], s.sub4(s.load4(&vertex[ky]), ray.o[1]));
     }
     // Each product is rounded on its own: a fused operation would break the antisymmetry of shared edges.
     let u = s.sub4(s.mul4(x[2], y[1]), s.mul4(y[2], x[1]));
@@ -100,7 +100,7 @@ pub(super) fn intersect<S: Simd>(s: S, block: &Block, ray: &Shear<S>, tmin: f32,
     let det = s.add4(s.add4(u, v), w);
     let scaled = s.add4(s.add4(s.mul4(u, z[0]), s.mul4(v, z[1])), s.mul4(w, z[2]));
     let inv = s.div4(s.splat4(1.0), det);
-    let t = s.mul4(s.mul4(scaled, ray.shear[2]), inv);
+    let t = s.mul4(s.mul4(scaled, ray.slopes[2]), inv);
     // A zero determinant makes `t` infinite or NaN, and both comparisons are false for it.
     let mask = inside & s.gt4(t, s.splat4(tmin)) & s.gt4(s.splat4(tmax), t);
     if mask == 0 {

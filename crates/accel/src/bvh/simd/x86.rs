@@ -5,6 +5,7 @@ use super::{
     portable::{push_any, push_sorted},
 };
 use crate::bvh::{node::Child, stack::Stack};
+#[allow(clippy::wildcard_imports)] // some sixty intrinsics
 use std::arch::x86_64::*;
 
 /// A proof that the processor has AVX2, FMA and BMI.

@@ -1,12 +1,9 @@
 //! Spheres, instances, filters, and input that no ray can hit.
 
-mod support;
-
-use accel::{Bvh, Geometry, Hit, Instance, Quality, Ray, SimdLevel};
+use crate::LEVELS;
+use crate::support::{Rng, brute_force, bumpy_ball, triangle_soup};
+use accel::{Bvh, Geometry, Hit, Instance, Quality, Ray};
 use glam::{Affine3A, Quat, Vec3};
-use support::{Rng, brute_force, bumpy_ball, triangle_soup};
-
-const LEVELS: [SimdLevel; 3] = [SimdLevel::Portable, SimdLevel::Avx2, SimdLevel::Avx512];
 
 fn spheres(all: &[(Vec3, f32)]) -> Bvh {
     let geometry: Vec<_> = all.iter().map(|&(centre, radius)| Geometry::Sphere { centre, radius }).collect();
@@ -93,7 +90,7 @@ fn instances_answer_like_their_transformed_triangles() {
 #[test]
 fn a_filter_lets_rays_through() {
     let soup = triangle_soup(2000, 0.2, 12);
-    let even = |hit: &Hit| hit.primitive % 2 == 0;
+    let even = |hit: &Hit| hit.primitive.is_multiple_of(2);
     let mut half = soup.clone();
     half.indices = soup.indices.iter().copied().step_by(2).collect();
     for level in LEVELS {

@@ -1,12 +1,9 @@
 //! No ray slips between two triangles of a closed mesh, nor past their boxes.
 
-mod support;
-
+use crate::LEVELS;
+use crate::support::{Mesh, Rng, bumpy_ball};
 use accel::{Bvh, Quality, Ray, SimdLevel};
 use glam::Vec3;
-use support::{Mesh, Rng, bumpy_ball};
-
-const LEVELS: [SimdLevel; 3] = [SimdLevel::Portable, SimdLevel::Avx2, SimdLevel::Avx512];
 
 fn ball_at(centre: Vec3, level: usize) -> Mesh {
     let mut mesh = bumpy_ball(level, 0.2);

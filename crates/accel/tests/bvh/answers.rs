@@ -1,11 +1,8 @@
 //! The hierarchy gives the answers of a loop over all primitives.
 
-mod support;
-
-use accel::{Bvh, Quality, Ray, SimdLevel};
-use support::{Mesh, Rng, brute_force, bumpy_ball, triangle_soup};
-
-const LEVELS: [SimdLevel; 3] = [SimdLevel::Portable, SimdLevel::Avx2, SimdLevel::Avx512];
+use crate::LEVELS;
+use crate::support::{Mesh, Rng, brute_force, bumpy_ball, triangle_soup};
+use accel::{Bvh, Quality, Ray};
 
 fn agrees_with_brute_force(mesh: &Mesh, quality: Quality) {
     for level in LEVELS {

@@ -60,7 +60,7 @@ pub(crate) fn triangle_soup(count: usize, size: f32, seed: u64) -> Mesh {
     mesh
 }
 
-/// A closed bumpy ball around the origin: a subdivided octahedron, `20 * 4^level` triangles for an icosahedron's look.
+/// A closed bumpy ball around the origin: a subdivided octahedron of `8 * 4^level` triangles.
 pub(crate) fn bumpy_ball(level: usize, bump: f32) -> Mesh {
     let mut positions: Vec<Vec3> = vec![Vec3::X, -Vec3::X, Vec3::Y, -Vec3::Y, Vec3::Z, -Vec3::Z];
     let mut indices: Vec<[u32; 3]> =
@@ -110,7 +110,7 @@ pub(crate) fn brute_force(mesh: &Mesh, ray: &Ray) -> Option<Hit> {
 
 /// Möller & Trumbore 1997, without bounds on t.
 pub(crate) fn intersect_f64(corners: [Vec3; 3], ray: &Ray) -> Option<(f64, f64, f64)> {
-    let [a, b, c] = corners.map(|p| p.as_dvec3());
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (o, d) = (ray.o.as_dvec3(), ray.d.as_dvec3());
     let (e1, e2): (DVec3, DVec3) = (b - a, c - a);
     let p = d.cross(e2);
