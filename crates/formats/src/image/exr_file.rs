@@ -1,5 +1,6 @@
 //! OpenEXR: linear 32-bit float with layers and metadata.
 
+use super::exr_order::sort_attributes;
 use super::{ImageFile, ImageFormat, RgbImage32, Tone, check_size};
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Text};
@@ -174,6 +175,7 @@ fn write(file: &ImageFile, _: Tone) -> Result<Vec<u8>, String> {
     let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(list));
     let mut bytes = Vec::new();
     Image::from_layer(layer).write().to_buffered(Cursor::new(&mut bytes)).map_err(|e| e.to_string())?;
+    sort_attributes(&mut bytes);
     Ok(bytes)
 }
 

@@ -6,6 +6,7 @@
 
 mod display;
 mod exr_file;
+mod exr_order;
 mod hdr;
 mod jpeg;
 mod pfm;

@@ -84,6 +84,23 @@ fn exr_keeps_layers_and_metadata() {
 }
 
 #[test]
+fn the_same_picture_and_metadata_give_the_same_exr_byte_for_byte() {
+    let mut file = ImageFile::from(gradient(40, 70));
+    file.metadata =
+        ["version", "seed", "passes", "integrator", "scene"].map(|k| (k.to_owned(), format!("{k} 1"))).to_vec();
+    let folder = tempfile::tempdir().unwrap();
+    let bytes = |name: &str| {
+        let path = folder.path().join(name);
+        write_image(&path, &file, Tone::Srgb).unwrap();
+        std::fs::read(path).unwrap()
+    };
+    let first = bytes("first.exr");
+    for i in 0..8 {
+        assert!(bytes(&format!("{i}.exr")) == first, "attempt {i}");
+    }
+}
+
+#[test]
 fn rows_are_stored_from_the_right_side() {
     let mut image = RgbImage32::filled(2, 2, [0.0; 3]);
     image.data[0] = [1.0; 3];
