@@ -42,10 +42,8 @@ impl<'i> Estimate<'i> {
             self.sum += self.at.f_photon(photon.wi) * photon.flux * weight;
             return;
         }
-        let (n, ng, wo) = (self.at.frame.n, self.at.ng, self.at.wo);
-        let (cos, cos_g) = (n.dot(photon.wi), ng.dot(photon.wi));
-        if cos * n.dot(wo) > 0.0 && cos_g * ng.dot(wo) > 0.0 {
-            self.sum += photon.flux * (weight * (cos / cos_g).abs());
+        if self.at.is_on_near_side(photon.wi) {
+            self.sum += photon.flux * (weight * self.at.cos_ratio(photon.wi));
         }
     }
     /// Radiance, when the weights are over the mean on a disc of squared radius `r2`.

@@ -83,11 +83,19 @@ impl Interaction {
     /// the true surface, while scattering weighs them by the shading cosine.
     #[inline]
     pub fn f_photon(&self, wi: Vec3) -> Spectrum {
-        let cos_g = self.ng.dot(wi).abs();
-        if cos_g <= 0.0 {
-            return Spectrum::BLACK;
-        }
-        self.f(wi, Transport::Radiance) * (self.frame.n.dot(wi).abs() / cos_g)
+        self.f(wi, Transport::Radiance) * self.cos_ratio(wi)
+    }
+    /// Shading cosine over true cosine of `wi`; zero in the plane of the true surface.
+    #[inline]
+    pub fn cos_ratio(&self, wi: Vec3) -> f32 {
+        let cos_g = self.ng.dot(wi);
+        if cos_g == 0.0 { 0.0 } else { (self.frame.n.dot(wi) / cos_g).abs() }
+    }
+    /// Whether `wi` lies on the eye's side of the surface, by the shading normal and by the true one.
+    #[inline]
+    pub fn is_on_near_side(&self, wi: Vec3) -> bool {
+        let (n, ng) = (self.frame.n, self.ng);
+        n.dot(wi) * n.dot(self.wo) > 0.0 && ng.dot(wi) * ng.dot(self.wo) > 0.0
     }
     /// Density (1/sr) with which [`Interaction::sample`] draws `wi`.
     #[inline]
