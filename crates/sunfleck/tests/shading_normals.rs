@@ -3,7 +3,7 @@ use glam::Vec3;
 use sunfleck::{
     bsdf::DiffuseMaterial,
     camera::{Perspective, View},
-    film::{Filter, FilmSpec, PassImage},
+    film::{FilmSpec, Filter, PassImage},
     integrator::{Params, Pass, find},
     light::DirectionalLight,
     scene::{Scene, SceneBuilder},
@@ -52,8 +52,11 @@ fn mean_radiance(scene: &Scene, name: &str, settings: &[(&str, &str)]) -> f32 {
 }
 
 /// By camera paths, by light paths, and by photons alone.
-const WAYS: [(&str, &[(&str, &str)]); 3] =
-    [("path", &[]), ("light", &[]), ("ppm", &[("direct", "photons"), ("photons", "20000"), ("radius", "0.1"), ("alpha", "1")])];
+const WAYS: [(&str, &[(&str, &str)]); 3] = [
+    ("path", &[]),
+    ("light", &[]),
+    ("ppm", &[("direct", "photons"), ("photons", "20000"), ("radius", "0.1"), ("alpha", "1")]),
+];
 
 #[test]
 fn a_leaning_normal_shades_by_its_own_cosine_whichever_way_light_is_found() {

@@ -1,6 +1,6 @@
 //! An algorithm's picture of a tiny scene as block means with variances.
 use sunfleck::{
-    film::{Filter, FilmSpec, PassImage},
+    film::{FilmSpec, Filter, PassImage},
     integrator::{Params, Pass, find},
     scene::Scene,
     spectrum::Wavelengths,

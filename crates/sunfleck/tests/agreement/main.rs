@@ -28,7 +28,12 @@ fn check(scene: &TinyScene, a: &Estimate, b: &Estimate) -> Result<(), String> {
         let error = (x.variance + y.variance).sqrt();
         let difference = (x.mean - y.mean).abs();
         if difference > LEVEL * error + allowed * y.mean.abs() {
-            return Err(format!("{pair}: block {i}: {} and {} differ by {:.1} standard errors", x.mean, y.mean, difference / error));
+            return Err(format!(
+                "{pair}: block {i}: {} and {} differ by {:.1} standard errors",
+                x.mean,
+                y.mean,
+                difference / error
+            ));
         }
     }
     let (x, y) = (a.picture(), b.picture());
@@ -41,7 +46,8 @@ fn check(scene: &TinyScene, a: &Estimate, b: &Estimate) -> Result<(), String> {
 
 fn agree(scene: &TinyScene) {
     let world = (scene.build)();
-    let estimates: Vec<Estimate> = scene.algorithms.iter().map(|(name, passes)| estimate(&world, name, *passes)).collect();
+    let estimates: Vec<Estimate> =
+        scene.algorithms.iter().map(|(name, passes)| estimate(&world, name, *passes)).collect();
     assert!(estimates[0].picture().mean > 0.0, "{}: a black picture proves nothing", scene.name);
     let mut failures = Vec::new();
     for (i, a) in estimates.iter().enumerate() {

@@ -49,8 +49,11 @@ pub(crate) const SCENES: &[TinyScene] = &[
 /// A room 2 x 2 x 2 around the origin with an open front at z = 1, walls of three colours, and the eye before it.
 fn room() -> SceneBuilder {
     let mut b = SceneBuilder::new();
-    let [white, red, green] = [Vec3::splat(0.7), Vec3::new(0.6, 0.1, 0.1), Vec3::new(0.1, 0.5, 0.2)].map(|c| diffuse(&mut b, c));
-    let wall = |p: [f32; 3], u: Vec3, v: Vec3| Shape::Parallelogram(Parallelogram { p: Vec3::from(p), u: 2.0 * u, v: 2.0 * v });
+    let [white, red, green] =
+        [Vec3::splat(0.7), Vec3::new(0.6, 0.1, 0.1), Vec3::new(0.1, 0.5, 0.2)].map(|c| diffuse(&mut b, c));
+    let wall = |p: [f32; 3], u: Vec3, v: Vec3| {
+        Shape::Parallelogram(Parallelogram { p: Vec3::from(p), u: 2.0 * u, v: 2.0 * v })
+    };
     b.add(wall([-1.0, -1.0, -1.0], Vec3::Z, Vec3::X), white); // floor, facing up
     b.add(wall([-1.0, 1.0, -1.0], Vec3::X, Vec3::Z), white); // ceiling, facing down
     b.add(wall([-1.0, -1.0, -1.0], Vec3::X, Vec3::Y), white); // back
@@ -114,7 +117,8 @@ fn bumped_normals() -> Scene {
     let (rows, columns) = (5u32, 8u32);
     for i in 0..=rows {
         for j in 0..columns {
-            let (theta, phi) = (std::f32::consts::PI * i as f32 / rows as f32, std::f32::consts::TAU * j as f32 / columns as f32);
+            let (theta, phi) =
+                (std::f32::consts::PI * i as f32 / rows as f32, std::f32::consts::TAU * j as f32 / columns as f32);
             let n = Vec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
             positions.push(Vec3::new(0.0, -0.3, 0.0) + 0.6 * n);
             normals.push((n + 0.3 * Vec3::new(0.0, (3.0 * phi).sin(), 0.0)).normalize());
@@ -193,7 +197,12 @@ fn thin_lens() -> Scene {
 /// Two triangles of unlike size emit, so that picking by area matters.
 fn mesh_light() -> Scene {
     let mut b = room();
-    let p = vec![Vec3::new(-0.6, 0.9, -0.4), Vec3::new(0.6, 0.8, -0.4), Vec3::new(0.0, 0.9, 0.6), Vec3::new(-0.8, 0.6, 0.2)];
+    let p = vec![
+        Vec3::new(-0.6, 0.9, -0.4),
+        Vec3::new(0.6, 0.8, -0.4),
+        Vec3::new(0.0, 0.9, 0.6),
+        Vec3::new(-0.8, 0.6, 0.2),
+    ];
     let uvs = vec![Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];
     let mesh = Mesh::new(p, vec![], uvs, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
     emit(&mut b, Shape::Mesh(mesh), Vec3::new(5.0, 6.0, 7.0), Sides::Two);
@@ -270,7 +279,8 @@ fn glossy_paint() -> Scene {
 
 fn textures() -> Scene {
     let mut b = room();
-    let checks = (0..64).map(|i| if (i + i / 8) % 2 == 0 { Vec3::new(0.8, 0.3, 0.1) } else { Vec3::splat(0.1) }).collect();
+    let checks =
+        (0..64).map(|i| if (i + i / 8) % 2 == 0 { Vec3::new(0.8, 0.3, 0.1) } else { Vec3::splat(0.1) }).collect();
     let reflectance = b.texture(Texture::Image(ImageTexture::new(8, 8, checks, Wrap::Repeat).unwrap()));
     let tiles = b.material(DiffuseMaterial { reflectance });
     let board = Parallelogram { p: Vec3::new(-0.9, -0.8, -0.5), u: 1.8 * Vec3::X, v: Vec3::new(0.0, 1.4, -0.4) };
