@@ -44,7 +44,7 @@ fn against_reference(case: &Case) -> Option<Comparison> {
     let spec = FilmSpec { width: reference.width, height: reference.height, filter: case.filter };
     let settings = Settings { spec, seed: 1, budget: Budget { passes: Some(case.passes), time: None } };
     let film = render(&world, integrator.as_ref(), &settings, |_, _| ControlFlow::Continue(()));
-    let data = film.mean().iter().map(|p| p.to_array()).collect();
+    let data = film.mean().iter().map(sunfleck::math::Vec3::to_array).collect();
     let picture = RgbImage32 { width: spec.width, height: spec.height, data };
     Some(compare(&picture, &reference, &CompareOptions { block: 50, ..CompareOptions::default() }).expect("like sizes"))
 }
