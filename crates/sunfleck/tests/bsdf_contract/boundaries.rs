@@ -1,7 +1,8 @@
 //! Fresnel's equations against closed forms and against complex arithmetic.
+use crate::models::{cases, outgoing};
 use glam::{DVec2, Vec2, Vec3};
 use sunfleck::{
-    bsdf::{Dielectric, Scatter, Transport, fresnel},
+    bsdf::{Bsdf, Dielectric, Scatter, Transport, fresnel},
     math::Local,
     spectrum::Spectrum,
 };
@@ -56,6 +57,16 @@ fn light_bends_by_snells_law_and_away_from_glass() {
         let (eta_o, eta_i) = if z > 0.0 { (1.0, eta) } else { (eta, 1.0) };
         assert!((eta_o * wo.0.x + eta_i * s.wi.0.x).abs() < 1e-6, "{eta} {z}: {}", s.wi.0);
         assert!(s.wi.0.z * z < 0.0 && s.wi.0.y == 0.0);
+    }
+}
+
+#[test]
+fn mirrors_reflect_about_the_normal() {
+    for wo in outgoing() {
+        for c in cases().iter().filter(|c| matches!(c.bsdf, Bsdf::Mirror(_) | Bsdf::Conductor(_))) {
+            let s = c.bsdf.sample(wo, 0.5, Vec2::ZERO, Transport::Radiance).expect("not in the plane");
+            assert!((wo.0 + s.wi.0).cross(Vec3::Z).length() < 1e-6 && s.wi.0.z == wo.0.z, "{}: {}", c.label, s.wi.0);
+        }
     }
 }
 

@@ -40,6 +40,8 @@ fn samples_are_finite_at_every_edge() {
                     let [a, b, l] = [i % 6, i / 6 % 6, i / 36].map(|k| ends[k]);
                     if let Some(s) = c.bsdf.sample(wo, l, Vec2::new(a, b), mode) {
                         check(&s, wo, &format!("{} from {} with {l} {a} {b}", c.label, wo.0));
+                        let crosses = (wo.0.z < 0.0) != (s.wi.0.z < 0.0);
+                        assert!(c.transmits() || !crosses, "{} lets light through", c.label);
                     }
                 }
             }
