@@ -4,7 +4,6 @@ use formats::image::read_image;
 use formats::scn::ScnOptions;
 use formats::{Diagnostic, Error, LoadOptions, Loaded, load};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
 
 /// A folder of the shared files, or `None` (with a note) if there is none.
 fn shared(folder: &str) -> Option<PathBuf> {
@@ -79,7 +78,6 @@ fn the_stock_cornell_box_holds_what_its_file_says() {
 fn odd_meshes_give_a_scene_or_a_clear_error() {
     let Some(folder) = shared("scenes/odd-obj-ply") else { return };
     for path in files_below(&folder) {
-        let start = Instant::now();
         match load_one(&path, false) {
             Ok(loaded) => {
                 print(&path, &loaded.warnings);
@@ -94,7 +92,6 @@ fn odd_meshes_give_a_scene_or_a_clear_error() {
                 assert!(is_mesh || error.to_string().contains("known: scn, obj"), "{error}");
             }
         }
-        assert!(start.elapsed() < Duration::from_secs(5), "{} took {:?}", path.display(), start.elapsed());
     }
 }
 

@@ -43,10 +43,6 @@ pub struct RenderDefaults {
     pub width: u32,
     /// Height in pixels.
     pub height: u32,
-    /// Samples per pixel.
-    pub samples: u32,
-    /// The most scatterings of a path; `None` is no limit.
-    pub scatterings: Option<u32>,
     /// How a pixel sees the picture's plane.
     pub filter: Filter,
     /// How linear values become 8-bit ones.
@@ -55,6 +51,6 @@ pub struct RenderDefaults {
 
 impl Default for RenderDefaults {
     fn default() -> Self {
-        Self { width: 500, height: 500, samples: 16, scatterings: None, filter: Filter::Box, tone: Tone::Srgb }
+        Self { width: 500, height: 500, filter: Filter::Box, tone: Tone::Srgb }
     }
 }

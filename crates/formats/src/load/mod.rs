@@ -97,8 +97,6 @@ pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
         defaults: RenderDefaults {
             filter: if compat { Filter::NRenderer } else { Filter::Box },
             tone: if compat { Tone::SquareRoot } else { Tone::Srgb },
-            // NRenderer's depth of 4 counts hits; the last one does not scatter.
-            scatterings: compat.then_some(3),
             ..RenderDefaults::default()
         },
         warnings: target.warnings,
