@@ -110,7 +110,8 @@ fn film_spec(picture: &PictureArgs, defaults: &RenderDefaults) -> Result<FilmSpe
         let message = format!("a picture of {width}×{height} has {pixels} pixels, more than {MAX_PIXELS}");
         return Err(Failure::input(message));
     }
-    Ok(FilmSpec { width, height, filter: defaults.filter })
+    let filter = picture.filter.map_or(defaults.filter, Into::into);
+    Ok(FilmSpec { width, height, filter })
 }
 
 /// With a time and no passes, only the time counts.
