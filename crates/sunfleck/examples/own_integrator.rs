@@ -118,7 +118,7 @@ fn scene() -> Result<Scene, Box<dyn Error>> {
     let mirror = b.material(MirrorMaterial { reflect: white });
     let clear = b.constant(Vec3::ONE);
     let glass = b.material(DielectricMaterial { eta: 1.5, reflectance: clear, transmittance: clear });
-    let patch = |p: [f32; 3], u, v| Shape::Parallelogram(Parallelogram { p: p.into(), u, v });
+    let patch = |p: [f32; 3], u, v| Shape::Parallelogram(Parallelogram::new(p.into(), u, v));
     let ball = |centre: [f32; 3]| Shape::Sphere(Sphere { centre: centre.into(), radius: 0.5 });
     b.add(patch([-3.0, 0.0, -2.0], 6.0 * Vec3::Z, 6.0 * Vec3::X), floor);
     b.add(patch([-3.0, 0.0, -2.0], 6.0 * Vec3::X, 4.0 * Vec3::Y), wall);

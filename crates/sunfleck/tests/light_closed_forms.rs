@@ -41,7 +41,7 @@ fn corner_form_factor(a: f32, b: f32, c: f32) -> f32 {
 
 /// A rectangle a x b at height c, one corner above the origin, emitting downward.
 fn ceiling(a: f32, b: f32, c: f32) -> Parallelogram {
-    Parallelogram { p: Vec3::new(0.0, 0.0, c), u: b * Vec3::Y, v: a * Vec3::X }
+    Parallelogram::new(Vec3::new(0.0, 0.0, c), b * Vec3::Y, a * Vec3::X)
 }
 
 #[test]

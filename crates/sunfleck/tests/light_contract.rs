@@ -21,9 +21,9 @@ const AROUND: Surroundings = Surroundings { centre: Vec3::ZERO, radius: 3.0, lam
 /// z = 0 from above.
 fn lights() -> Vec<(&'static str, Light)> {
     let area = |shape: Shape, sides| Light::from(AreaLight { shape, radiance: Rgb::new(2.0, 1.0, 0.5), sides });
-    let quad = Parallelogram { p: Vec3::new(-0.6, 0.3, 1.0), u: Vec3::new(0.2, 0.9, 0.3), v: Vec3::new(1.2, 0.1, 0.0) };
+    let quad = Parallelogram::new(Vec3::new(-0.6, 0.3, 1.0), Vec3::new(0.2, 0.9, 0.3), Vec3::new(1.2, 0.1, 0.0));
     let ball = Sphere { centre: Vec3::new(0.4, 0.2, 1.2), radius: 0.7 };
-    let vertices = vec![quad.p, quad.p + quad.v, quad.p + quad.u, Vec3::new(0.9, -0.5, 1.6)];
+    let vertices = vec![quad.p(), quad.p() + quad.v(), quad.p() + quad.u(), Vec3::new(0.9, -0.5, 1.6)];
     let mesh = Mesh::new(vertices, vec![], vec![], vec![[0, 2, 1], [0, 1, 3]]).unwrap();
     let spot = |angles| {
         let (p, d) = (Vec3::new(0.2, -0.3, 1.5), Vec3::new(0.3, 0.1, -2.0));

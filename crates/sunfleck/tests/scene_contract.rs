@@ -95,8 +95,7 @@ fn same_shading(a: &Interaction, b: &Interaction, scale: f32) -> bool {
 
 #[test]
 fn a_placed_object_is_hit_and_shaded_like_the_same_geometry_moved() {
-    let quad =
-        Parallelogram { p: Vec3::new(-0.8, -0.5, 0.1), u: Vec3::new(1.5, 0.2, 0.3), v: Vec3::new(0.1, 1.2, -0.2) };
+    let quad = Parallelogram::new(Vec3::new(-0.8, -0.5, 0.1), Vec3::new(1.5, 0.2, 0.3), Vec3::new(0.1, 1.2, -0.2));
     for (kind, shape) in [("mesh", Shape::Mesh(sheet())), ("parallelogram", Shape::Parallelogram(quad))] {
         for (name, m) in placements() {
             let (instance, by_hand) = (placed(shape.clone(), m), moved(&shape, m));
@@ -238,7 +237,7 @@ fn the_bounding_sphere_holds_everything_and_is_never_empty() {
 fn lights_are_chosen_by_power_and_never_when_dark() {
     let mut b = SceneBuilder::new();
     let material = grey(&mut b);
-    let floor = Parallelogram { p: Vec3::new(-1.0, 0.0, -1.0), u: 2.0 * Vec3::Z, v: 2.0 * Vec3::X };
+    let floor = Parallelogram::new(Vec3::new(-1.0, 0.0, -1.0), 2.0 * Vec3::Z, 2.0 * Vec3::X);
     b.add(Shape::Parallelogram(floor), material);
     let point = |i: f32| PointLight { p: Vec3::Y, intensity: Rgb::splat(i) };
     b.light(point(1.0));
@@ -246,7 +245,7 @@ fn lights_are_chosen_by_power_and_never_when_dark() {
     b.light(point(3.0));
     b.light(DirectionalLight::new(Vec3::NEG_Y, Rgb::ONE).unwrap());
     b.light(EnvironmentLight::constant(Rgb::splat(0.5)));
-    b.surface(emitter(Shape::Parallelogram(Parallelogram { p: 2.0 * Vec3::Y, ..floor }), material));
+    b.surface(emitter(Shape::Parallelogram(Parallelogram::new(2.0 * Vec3::Y, floor.u(), floor.v())), material));
     let scene = b.build().unwrap();
     let world = scene.world(RGB);
     let powers: Vec<f32> =

@@ -40,7 +40,7 @@ fn ball(levels: u32) -> Mesh {
 /// The six walls of the cube [−1, 1]³.
 fn walls() -> Vec<Shape> {
     let axes = [(Vec3::X, Vec3::Y, Vec3::Z), (Vec3::Y, Vec3::Z, Vec3::X), (Vec3::Z, Vec3::X, Vec3::Y)];
-    let wall = |u: Vec3, v: Vec3, p: Vec3| Shape::Parallelogram(Parallelogram { p: p - u - v, u: 2.0 * u, v: 2.0 * v });
+    let wall = |u: Vec3, v: Vec3, p: Vec3| Shape::Parallelogram(Parallelogram::new(p - u - v, 2.0 * u, 2.0 * v));
     axes.into_iter().flat_map(|(u, v, n)| [wall(u, v, n), wall(u, v, -n)]).collect()
 }
 

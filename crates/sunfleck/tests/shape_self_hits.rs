@@ -128,7 +128,7 @@ fn rays_never_return_to_the_parallelogram_they_leave() {
         "parallelograms",
         flat_self_hits(|scale, centre, s| {
             let [p, u, v] = edges(scale, centre, s);
-            (Shape::Parallelogram(Parallelogram { p, u, v }), None, [p, u, v])
+            (Shape::Parallelogram(Parallelogram::new(p, u, v)), None, [p, u, v])
         }),
     );
 }
@@ -225,19 +225,17 @@ fn shadow_rays_never_meet_the_light_they_go_to_nor_the_surface_they_leave() {
         for index in 0..600 {
             let s = &mut Sampler::new(17, Domain::Prepare, config as u64, index);
             let centre = offset * in_cube(s);
-            let floor = Parallelogram {
-                p: centre - scale * Vec3::ONE.with_z(0.0),
-                u: 2.0 * scale * Vec3::X,
-                v: 2.0 * scale * Vec3::Y,
-            };
+            let floor = Parallelogram::new(
+                centre - scale * Vec3::ONE.with_z(0.0),
+                2.0 * scale * Vec3::X,
+                2.0 * scale * Vec3::Y,
+            );
             let above = centre + scale * (1.5 + s.next_1d()) * Vec3::Z;
             let light = match index % 3 {
                 0 => Shape::Sphere(Sphere { centre: above, radius: 0.5 * scale }),
-                1 => Shape::Parallelogram(Parallelogram {
-                    p: above,
-                    u: 0.4 * scale * in_cube(s),
-                    v: 0.4 * scale * in_cube(s),
-                }),
+                1 => {
+                    Shape::Parallelogram(Parallelogram::new(above, 0.4 * scale * in_cube(s), 0.4 * scale * in_cube(s)))
+                }
                 _ => {
                     let p = [0, 1, 2].map(|_| above + 0.4 * scale * in_cube(s));
                     Shape::Mesh(Mesh::new(p.to_vec(), vec![], vec![], vec![[0, 1, 2]]).unwrap())
@@ -246,7 +244,7 @@ fn shadow_rays_never_meet_the_light_they_go_to_nor_the_surface_they_leave() {
             let scene = lit(light, Shape::Parallelogram(floor));
             let world = scene.world(Wavelengths::Rgb);
             for _ in 0..64 {
-                let target = floor.p + s.next_1d() * floor.u + s.next_1d() * floor.v;
+                let target = floor.p() + s.next_1d() * floor.u() + s.next_1d() * floor.v();
                 let d = (scale * Vec3::new(0.0, 0.0, -0.3) + 0.05 * scale * in_cube(s)).normalize();
                 let Some(at) = world.intersect(&Ray::new(target - 0.3 * scale * d, d)) else { continue };
                 let u: Vec2 = s.next_2d();

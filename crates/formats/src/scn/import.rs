@@ -99,7 +99,7 @@ impl Import<'_> {
     fn plane(&mut self, plane: &Plane, span: Span, translation: Vec3) -> Option<Shape> {
         let turned = self.orientation(plane.u, plane.v, plane.normal, "the edges `U` and `V`", span)?;
         let (u, v) = if turned { (plane.v, plane.u) } else { (plane.u, plane.v) };
-        Some(Shape::Parallelogram(Parallelogram { p: plane.corner + translation, u, v }))
+        Some(Shape::Parallelogram(Parallelogram::new(plane.corner + translation, u, v)))
     }
 
     fn triangle(&mut self, triangle: &Triangle, span: Span, translation: Vec3) -> Option<[Vec3; 3]> {
@@ -164,7 +164,7 @@ impl Import<'_> {
         if !area.is_finite() || area.length() <= 1e-6 * light.u.length() * light.v.length() {
             return self.warn("scn::empty-shape", light.name.span, "dropped", || "a light without area".to_owned());
         }
-        let shape = Shape::Parallelogram(Parallelogram { p: light.position, u: light.u, v: light.v });
+        let shape = Shape::Parallelogram(Parallelogram::new(light.position, light.u, light.v));
         let black = self.target.builder().material(BlackMaterial);
         self.target.surface(shape, black, Some((radiance, self.options.sides())));
     }

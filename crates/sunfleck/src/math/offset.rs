@@ -4,26 +4,12 @@ use glam::Vec3;
 /// Moves `p` off its surface, to the side that `d` points to, by more than its error bound.
 ///
 /// `p_error` bounds each coordinate's absolute error (world units); `ng` is the unit geometric normal. The bound is
-/// projected on the normal, so a grazing point moves no further than needed, and the result is rounded outward by one
-/// ulp (Pharr, Jakob & Humphreys 2023, "Physically Based Rendering", section 6.8.6).
+/// projected on the normal, so a grazing point moves no further than needed (Pharr, Jakob & Humphreys 2023, "Physically
+/// Based Rendering", section 6.8.6); two ulps of `p` pay for the rounding of the move itself.
 #[inline]
 pub fn offset_origin(p: Vec3, p_error: Vec3, ng: Vec3, d: Vec3) -> Vec3 {
-    let distance = p_error.dot(ng.abs());
-    let offset = if d.dot(ng) < 0.0 { -distance * ng } else { distance * ng };
-    let moved = p + offset;
-    Vec3::new(round_along(moved.x, offset.x), round_along(moved.y, offset.y), round_along(moved.z, offset.z))
-}
-
-/// The neighbouring float in the direction of `sign`, or `x` itself for a zero sign.
-#[inline]
-fn round_along(x: f32, sign: f32) -> f32 {
-    if sign > 0.0 {
-        x.next_up()
-    } else if sign < 0.0 {
-        x.next_down()
-    } else {
-        x
-    }
+    let distance = (p_error + 2.0 * f32::EPSILON * p.abs()).dot(ng.abs());
+    p + distance.copysign(d.dot(ng)) * ng
 }
 
 #[cfg(test)]

@@ -51,9 +51,8 @@ fn room() -> SceneBuilder {
     let mut b = SceneBuilder::new();
     let [white, red, green] =
         [Vec3::splat(0.7), Vec3::new(0.6, 0.1, 0.1), Vec3::new(0.1, 0.5, 0.2)].map(|c| diffuse(&mut b, c));
-    let wall = |p: [f32; 3], u: Vec3, v: Vec3| {
-        Shape::Parallelogram(Parallelogram { p: Vec3::from(p), u: 2.0 * u, v: 2.0 * v })
-    };
+    let wall =
+        |p: [f32; 3], u: Vec3, v: Vec3| Shape::Parallelogram(Parallelogram::new(Vec3::from(p), 2.0 * u, 2.0 * v));
     b.add(wall([-1.0, -1.0, -1.0], Vec3::Z, Vec3::X), white); // floor, facing up
     b.add(wall([-1.0, 1.0, -1.0], Vec3::X, Vec3::Z), white); // ceiling, facing down
     b.add(wall([-1.0, -1.0, -1.0], Vec3::X, Vec3::Y), white); // back
@@ -75,7 +74,7 @@ fn diffuse(b: &mut SceneBuilder, c: Vec3) -> MaterialId {
 /// A quad `side` wide that faces down from height `y`.
 fn lamp(side: f32, y: f32) -> Shape {
     let p = Vec3::new(-0.5 * side, y, -0.5 * side);
-    Shape::Parallelogram(Parallelogram { p, u: side * Vec3::X, v: side * Vec3::Z })
+    Shape::Parallelogram(Parallelogram::new(p, side * Vec3::X, side * Vec3::Z))
 }
 
 fn emit(b: &mut SceneBuilder, shape: Shape, radiance: Vec3, sides: Sides) {
@@ -171,7 +170,7 @@ fn mirror_room() -> Scene {
 fn instance() -> Scene {
     let mut b = room();
     let grey = diffuse(&mut b, Vec3::splat(0.6));
-    let tile = Shape::Parallelogram(Parallelogram { p: Vec3::new(-0.5, 0.0, -0.5), u: Vec3::Z, v: Vec3::X });
+    let tile = Shape::Parallelogram(Parallelogram::new(Vec3::new(-0.5, 0.0, -0.5), Vec3::Z, Vec3::X));
     let object = b.object(vec![
         SurfaceDef { shape: tile, material: grey, emission: None },
         SurfaceDef { shape: ball([0.0, 0.3, 0.0], 0.3), material: grey, emission: None },
@@ -283,7 +282,7 @@ fn textures() -> Scene {
         (0..64).map(|i| if (i + i / 8) % 2 == 0 { Vec3::new(0.8, 0.3, 0.1) } else { Vec3::splat(0.1) }).collect();
     let reflectance = b.texture(Texture::Image(ImageTexture::new(8, 8, checks, Wrap::Repeat).unwrap()));
     let tiles = b.material(DiffuseMaterial { reflectance });
-    let board = Parallelogram { p: Vec3::new(-0.9, -0.8, -0.5), u: 1.8 * Vec3::X, v: Vec3::new(0.0, 1.4, -0.4) };
+    let board = Parallelogram::new(Vec3::new(-0.9, -0.8, -0.5), 1.8 * Vec3::X, Vec3::new(0.0, 1.4, -0.4));
     b.add(Shape::Parallelogram(board), tiles);
     emit(&mut b, lamp(0.8, 0.95), Vec3::splat(8.0), Sides::One);
     finish(b)

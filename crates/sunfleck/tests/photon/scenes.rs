@@ -59,7 +59,7 @@ pub(crate) fn glass(b: &mut SceneBuilder, eta: f32) -> MaterialId {
 
 /// A patch whose outer side is that of `u × v`.
 pub(crate) fn patch(p: [f32; 3], u: [f32; 3], v: [f32; 3]) -> Shape {
-    Shape::Parallelogram(Parallelogram { p: p.into(), u: u.into(), v: v.into() })
+    Shape::Parallelogram(Parallelogram::new(p.into(), u.into(), v.into()))
 }
 
 /// A sphere.
