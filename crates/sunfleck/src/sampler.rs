@@ -2,7 +2,7 @@
 //!
 //! The first dimensions are pairs of an Owen-scrambled (0,2)-sequence, each pair with its own shuffle of the index, so
 //! that pairs are well spread by themselves and independent of each other (Burley 2020, "Practical Hash-based Owen
-//! Scrambling"). After [`STRATIFIED`] draws, where stratification no longer helps, they are hashed counters.
+//! Scrambling"). After the first draws, where stratification no longer helps, they are hashed counters.
 
 /// Which family of paths draws numbers; keeps their streams apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

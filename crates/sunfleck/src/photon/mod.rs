@@ -9,11 +9,11 @@
 //!                        own walk ─ survey ─ radius: how far a gather reaches
 //! ```
 //!
-//! - [`emit`]: chooses a light and starts a path of known flux;
+//! - [`mod@emit`]: chooses a light and starts a path of known flux;
 //! - [`deposit`]: which arrivals of a path are kept, and a [`Shower`] of many paths, the same for any number of threads;
 //! - [`map`]: photons beside an index of their positions, by radius or by number;
 //! - [`kernel`], [`gather`]: the density estimate;
-//! - [`survey`], [`radius`]: what the camera sees of the scene, and from it the first radius and how it shrinks.
+//! - [`mod@survey`], [`radius`]: what the camera sees of the scene, and from it the first radius and how it shrinks.
 pub mod deposit;
 pub mod emit;
 pub mod gather;
