@@ -1,11 +1,11 @@
 //! Light tracing: paths from the lights, each vertex connected to the camera. Finds caustics on matt surfaces; cannot
 //! see anything in a mirror or through glass.
-use super::{Entry, Integrator, Pass, PassRenderer};
+use super::{Entry, Integrator, Pass, PassRenderer, eye_ray::EyeRay};
 use crate::{
     bsdf::Transport,
     camera::Project,
     film::{Counts, FilmSpec, PassImage, Splat},
-    light::Emitter,
+    photon::emit,
     sampler::{Domain, Sampler},
     scene::{Scene, World},
     spectrum::Spectrum,
@@ -70,10 +70,7 @@ impl Prepared<'_> {
     fn lights_seen_directly(&self, world: &World, pass: &Pass, image: &mut PassImage) {
         let spec = image.spec();
         image.fill(|x, y, counts| {
-            let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
-            let mut sampler = Sampler::new(pass.seed, Domain::Camera, pass.index, pixel);
-            let raster = spec.raster(x, y, sampler.next_2d());
-            let ray = self.scene.camera().ray(raster, sampler.next_2d()).ray;
+            let ray = EyeRay::new(self.scene, spec, pass, pass.index, (x, y)).camera.ray;
             counts.rays += 1;
             let le = match world.intersect(&ray) {
                 Some(at) => world.emitted(&at),
@@ -95,14 +92,11 @@ struct Connect<'w> {
 impl Connect<'_> {
     fn trace(&mut self, mut sampler: Sampler, paths: u64) {
         self.counts.emitted += 1;
-        let Some((id, prob, _)) = self.world.choose_light(sampler.next_1d()) else { return };
-        let (u_area, u_dir) = (sampler.next_2d(), sampler.next_2d());
-        let Some(le) = self.world.light(id).sample_le(u_area, u_dir, self.world.around()) else { return };
-        let beta = le.flux() / (prob * paths as f32);
+        let Some(start) = emit(self.world, &mut sampler) else { return };
+        let start = Start { beta: start.beta / paths as f32, ..start };
         let world = self.world;
         let limits = self.limits;
-        self.counts.rays +=
-            walk(world, &Start { ray: le.ray, beta, mode: Transport::Flux }, &limits, &mut sampler, self);
+        self.counts.rays += walk(world, &start, &limits, &mut sampler, self);
     }
 }
 

@@ -2,6 +2,7 @@
 //!
 //! To add one: write `integrator/<name>.rs` with its settings, an `ENTRY` and the two traits below, and add its `mod` line
 //! and its entry to [`REGISTRY`]; command line and help run over that list.
+mod eye_ray;
 mod light;
 mod params;
 mod path;

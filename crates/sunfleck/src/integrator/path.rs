@@ -1,10 +1,9 @@
 //! Path tracing with next-event estimation: the reference where light can be found from the camera.
-use super::{Entry, Integrator, Pass, PassRenderer};
+use super::{Entry, Integrator, Pass, PassRenderer, eye_ray::EyeRay};
 use crate::{
     bsdf::Transport,
-    camera::Project,
     film::{Counts, FilmSpec, PassImage},
-    sampler::{Domain, Sampler},
+    sampler::Sampler,
     scene::{Interaction, Scene, World},
     spectrum::Spectrum,
     walk::{Arrival, Escape, Limits, Start, Step, Visit, walk},
@@ -42,12 +41,8 @@ impl PassRenderer for Prepared<'_> {
         let world = self.scene.world(pass.lambda);
         let spec = image.spec();
         image.fill(|x, y, counts| {
-            let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
-            let mut sampler = Sampler::new(pass.seed, Domain::Camera, pass.index, pixel);
-            let raster = spec.raster(x, y, sampler.next_2d());
-            let ray = self.scene.camera().ray(raster, sampler.next_2d()).ray;
-            self.radiance(&world, &Start { ray, beta: Spectrum::ONE, mode: Transport::Radiance }, &mut sampler, counts)
-                .to_rgb(pass.lambda)
+            let mut eye = EyeRay::new(self.scene, spec, pass, pass.index, (x, y));
+            self.radiance(&world, &eye.start(), &mut eye.sampler, counts).to_rgb(pass.lambda)
         });
     }
 }

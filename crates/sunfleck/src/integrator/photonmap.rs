@@ -22,16 +22,14 @@
 mod eye;
 mod maps;
 
-use super::{Entry, Integrator, ParamInfo, Pass, PassRenderer};
+use super::{Entry, Integrator, ParamInfo, Pass, PassRenderer, eye_ray::EyeRay};
 use crate::{
-    bsdf::Transport,
-    camera::Project,
     film::{Counts, FilmSpec, PassImage},
     photon::Kernel,
-    sampler::{Domain, Sampler},
+    sampler::Domain,
     scene::Scene,
     spectrum::{Spectrum, Wavelengths},
-    walk::{Limits, Start},
+    walk::Limits,
 };
 use eye::Eye;
 use maps::Maps;
@@ -160,14 +158,10 @@ impl PassRenderer for Prepared<'_> {
         let samples = u64::from(self.settings.samples);
         let scratch = || Eye::new(&world, self.settings, maps);
         image.fill_with(scratch, |eye, x, y, counts| {
-            let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
             let mut sum = Spectrum::BLACK;
             for sample in pass.index * samples..(pass.index + 1) * samples {
-                let mut sampler = Sampler::new(pass.seed, Domain::Camera, sample, pixel);
-                let raster = spec.raster(x, y, sampler.next_2d());
-                let ray = self.scene.camera().ray(raster, sampler.next_2d()).ray;
-                let start = Start { ray, beta: Spectrum::ONE, mode: Transport::Radiance };
-                sum += eye.radiance(&start, &mut sampler, counts);
+                let mut ray = EyeRay::new(self.scene, spec, pass, sample, (x, y));
+                sum += eye.radiance(&ray.start(), &mut ray.sampler, counts);
             }
             (sum / samples as f32).to_rgb(pass.lambda)
         });

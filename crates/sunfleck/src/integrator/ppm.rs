@@ -11,17 +11,16 @@
 //! | `L S⁺ D S* E`, `L S* D (S\|D)* D S* E` | photons |
 use super::{
     Entry, Integrator, ParamInfo, Pass, PassRenderer,
+    eye_ray::EyeRay,
     path::{direct, power_heuristic},
 };
 use crate::{
-    bsdf::Transport,
-    camera::Project,
     film::{Counts, FilmSpec, PassImage},
     photon::{Disc, Keep, Kernel, RadiusMap, Reach, Schedule, Shower, gather_within, pixel_angle, survey},
     sampler::{Domain, Sampler},
     scene::{Scene, World},
     spectrum::Spectrum,
-    walk::{Arrival, Escape, Limits, Start, Step, Visit, walk},
+    walk::{Arrival, Escape, Limits, Step, Visit, walk},
 };
 use glam::Vec3;
 
@@ -125,23 +124,19 @@ impl PassRenderer for Prepared<'_> {
         let shrink = self.settings.schedule.radius(pass.index);
         let map = self.shoot(&world, pass, image, shrink);
         image.fill(|x, y, counts| {
-            let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
-            let mut sampler = Sampler::new(pass.seed, Domain::Camera, pass.index, pixel);
-            let raster = spec.raster(x, y, sampler.next_2d());
-            let camera = self.scene.camera().ray(raster, sampler.next_2d());
-            let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance };
+            let mut eye = EyeRay::new(self.scene, spec, pass, pass.index, (x, y));
             let mut look = Look {
                 world: &world,
                 settings: self.settings,
                 map: &map,
                 reach: &self.reach,
-                angle: pixel_angle(camera.solid_angle, spec),
+                angle: pixel_angle(eye.camera.solid_angle, spec),
                 shrink,
                 sum: Spectrum::BLACK,
                 gathered_at: Vec3::ZERO,
                 counts,
             };
-            let rays = walk(&world, &start, &self.settings.limits, &mut sampler, &mut look);
+            let rays = walk(&world, &eye.start(), &self.settings.limits, &mut eye.sampler, &mut look);
             look.counts.rays += rays;
             look.sum.to_rgb(pass.lambda)
         });

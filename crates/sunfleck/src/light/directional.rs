@@ -1,6 +1,6 @@
 //! Light from infinitely far away in one direction: the sun without its disk.
-use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
-use crate::spectrum::{Rgb, Spectrum, Wavelengths};
+use super::{Emitter, LeSample, LiSample, LightEnd, Surroundings};
+use crate::spectrum::{Rgb, Spectrum};
 use glam::{Vec2, Vec3};
 
 /// A distant light.
@@ -32,9 +32,6 @@ impl Emitter for DirectionalLight {
         let li = Spectrum::from_rgb(self.irradiance, around.lambda);
         Some(LiSample { wi: -self.direction, li, pdf: 1.0, delta: true, end: LightEnd::Infinite })
     }
-    fn pdf_li(&self, _: Vec3, _: Vec3, _: Option<&EmitterHit>) -> f32 {
-        0.0
-    }
     #[inline]
     fn sample_le(&self, u_area: Vec2, _: Vec2, around: &Surroundings) -> Option<LeSample> {
         Some(LeSample {
@@ -44,19 +41,6 @@ impl Emitter for DirectionalLight {
             pdf_dir: 1.0,
             cos: 1.0,
         })
-    }
-    fn pdf_le(&self, _: Option<&EmitterHit>, _: Vec3, _: &Surroundings) -> (f32, f32) {
-        (0.0, 0.0)
-    }
-    fn le(&self, _: &EmitterHit, _: Vec3, _: Wavelengths) -> Spectrum {
-        Spectrum::BLACK
-    }
-    fn le_escaped(&self, _: Vec3, _: Wavelengths) -> Spectrum {
-        Spectrum::BLACK
-    }
-    /// No ray meets a single direction, not even one that leaves the scene.
-    fn is_infinite(&self) -> bool {
-        false
     }
     fn is_delta(&self) -> bool {
         true

@@ -114,7 +114,7 @@ pub struct EmitterHit {
     pub ng: Vec3,
 }
 
-/// The contract of every light; checked for each in `tests/light_contract.rs`.
+/// The contract of every light, and by itself that of lights which no ray can hit; checked for each in `tests/light_contract.rs`.
 pub trait Emitter {
     /// Word for messages and summaries.
     fn name(&self) -> &'static str;
@@ -123,18 +123,28 @@ pub trait Emitter {
     /// Draws a direction in which the light is seen from `from`; `None` if it sends nothing there.
     fn sample_li(&self, from: Vec3, u: Vec2, around: &Surroundings) -> Option<LiSample>;
     /// Density (1/sr) with which [`Emitter::sample_li`] draws the direction `wi` toward `hit` (`None`: toward infinity).
-    fn pdf_li(&self, from: Vec3, wi: Vec3, hit: Option<&EmitterHit>) -> f32;
+    fn pdf_li(&self, _from: Vec3, _wi: Vec3, _hit: Option<&EmitterHit>) -> f32 {
+        0.0
+    }
     /// Draws an emitted ray.
     fn sample_le(&self, u_area: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample>;
     /// Densities `(pdf_area, pdf_dir)` with which [`Emitter::sample_le`] emits from `hit` in direction `d`; zero where
     /// it never would, and for delta lights.
-    fn pdf_le(&self, hit: Option<&EmitterHit>, d: Vec3, around: &Surroundings) -> (f32, f32);
+    fn pdf_le(&self, _hit: Option<&EmitterHit>, _d: Vec3, _around: &Surroundings) -> (f32, f32) {
+        (0.0, 0.0)
+    }
     /// Radiance leaving the emitting surface at `hit` in direction `wo`. Black for lights without a surface.
-    fn le(&self, hit: &EmitterHit, wo: Vec3, lambda: Wavelengths) -> Spectrum;
+    fn le(&self, _hit: &EmitterHit, _wo: Vec3, _lambda: Wavelengths) -> Spectrum {
+        Spectrum::BLACK
+    }
     /// Radiance seen by a ray that leaves the scene in direction `d`. Black for lights inside the scene.
-    fn le_escaped(&self, d: Vec3, lambda: Wavelengths) -> Spectrum;
+    fn le_escaped(&self, _d: Vec3, _lambda: Wavelengths) -> Spectrum {
+        Spectrum::BLACK
+    }
     /// Whether rays that leave the scene see this light.
-    fn is_infinite(&self) -> bool;
+    fn is_infinite(&self) -> bool {
+        false
+    }
     /// Whether no ray can hit it.
     fn is_delta(&self) -> bool;
 }

@@ -1,8 +1,8 @@
 //! A light without extent that shines evenly in all directions.
-use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
+use super::{Emitter, LeSample, LiSample, LightEnd, Surroundings};
 use crate::{
     math::{Ray, warp::square_to_sphere},
-    spectrum::{Rgb, Spectrum, Wavelengths},
+    spectrum::{Rgb, Spectrum},
 };
 use glam::{Vec2, Vec3};
 use std::f32::consts::PI;
@@ -31,26 +31,11 @@ impl Emitter for PointLight {
         let li = Spectrum::from_rgb(self.intensity, around.lambda) / d2;
         Some(LiSample { wi, li, pdf: 1.0, delta: true, end: LightEnd::Point(self.p) })
     }
-    fn pdf_li(&self, _: Vec3, _: Vec3, _: Option<&EmitterHit>) -> f32 {
-        0.0
-    }
     #[inline]
     fn sample_le(&self, _: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample> {
         let ray = Ray { o: self.p, d: square_to_sphere(u_dir), tmin: 0.0, tmax: f32::INFINITY };
         let le = Spectrum::from_rgb(self.intensity, around.lambda);
         Some(LeSample { ray, le, pdf_area: 1.0, pdf_dir: 0.25 / PI, cos: 1.0 })
-    }
-    fn pdf_le(&self, _: Option<&EmitterHit>, _: Vec3, _: &Surroundings) -> (f32, f32) {
-        (0.0, 0.0)
-    }
-    fn le(&self, _: &EmitterHit, _: Vec3, _: Wavelengths) -> Spectrum {
-        Spectrum::BLACK
-    }
-    fn le_escaped(&self, _: Vec3, _: Wavelengths) -> Spectrum {
-        Spectrum::BLACK
-    }
-    fn is_infinite(&self) -> bool {
-        false
     }
     fn is_delta(&self) -> bool {
         true

@@ -1,8 +1,8 @@
 //! A light without extent that shines into a cone with a soft edge.
-use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
+use super::{Emitter, LeSample, LiSample, LightEnd, Surroundings};
 use crate::{
     math::{Frame, Local, Ray},
-    spectrum::{Rgb, Spectrum, Wavelengths},
+    spectrum::{Rgb, Spectrum},
 };
 use glam::{Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
@@ -125,9 +125,6 @@ impl Emitter for SpotLight {
             end: LightEnd::Point(self.p),
         })
     }
-    fn pdf_li(&self, _: Vec3, _: Vec3, _: Option<&EmitterHit>) -> f32 {
-        0.0
-    }
     #[inline]
     fn sample_le(&self, _: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample> {
         let v = self.sample_versine(u_dir.x);
@@ -142,18 +139,6 @@ impl Emitter for SpotLight {
             pdf_dir: falloff / self.solid_angle(),
             cos: 1.0,
         })
-    }
-    fn pdf_le(&self, _: Option<&EmitterHit>, _: Vec3, _: &Surroundings) -> (f32, f32) {
-        (0.0, 0.0)
-    }
-    fn le(&self, _: &EmitterHit, _: Vec3, _: Wavelengths) -> Spectrum {
-        Spectrum::BLACK
-    }
-    fn le_escaped(&self, _: Vec3, _: Wavelengths) -> Spectrum {
-        Spectrum::BLACK
-    }
-    fn is_infinite(&self) -> bool {
-        false
     }
     fn is_delta(&self) -> bool {
         true

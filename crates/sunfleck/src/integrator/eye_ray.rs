@@ -1,0 +1,36 @@
+//! The camera's end of a path: which place of a pixel, through which point of the lens.
+use super::Pass;
+use crate::{
+    bsdf::Transport,
+    camera::{CameraRay, Project},
+    film::FilmSpec,
+    sampler::{Domain, Sampler},
+    scene::Scene,
+    spectrum::Spectrum,
+    walk::Start,
+};
+
+/// A camera ray and the stream of numbers that goes on with its path.
+pub(super) struct EyeRay {
+    /// Ray and solid angle.
+    pub(super) camera: CameraRay,
+    /// The path's numbers; two pairs are drawn.
+    pub(super) sampler: Sampler,
+}
+
+impl EyeRay {
+    /// Sample number `sample` of pixel (`x`, `y`): for one sample a pass, the number of the pass.
+    #[inline]
+    pub(super) fn new(scene: &Scene, spec: FilmSpec, pass: &Pass, sample: u64, (x, y): (u32, u32)) -> Self {
+        let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
+        let mut sampler = Sampler::new(pass.seed, Domain::Camera, sample, pixel);
+        let raster = spec.raster(x, y, sampler.next_2d());
+        let camera = scene.camera().ray(raster, sampler.next_2d());
+        Self { camera, sampler }
+    }
+    /// The beginning of a camera walk.
+    #[inline]
+    pub(super) fn start(&self) -> Start {
+        Start { ray: self.camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance }
+    }
+}
