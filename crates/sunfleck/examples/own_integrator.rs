@@ -51,13 +51,13 @@ struct Prepared<'s> {
 
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
-        let world = self.scene.world(pass.lambda);
+        let world = self.scene.world(pass.lambda, pass.time);
         let spec = image.spec();
         image.fill(|x, y, counts| {
             let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
             let mut sampler = Sampler::new(pass.seed, Domain::Camera, pass.index, pixel);
             let raster = spec.raster(x, y, sampler.next_2d());
-            let ray = self.scene.camera().ray(raster, sampler.next_2d()).ray;
+            let ray = world.camera().ray(raster, sampler.next_2d()).ray;
             let start = Start { ray, beta: Spectrum::ONE, mode: Transport::Radiance };
             let mut look = Look { world: &world, settings: self.settings, sum: Spectrum::BLACK, rays: 0 };
             counts.rays += walk(&world, &start, &self.settings.limits, &mut sampler, &mut look) + look.rays;

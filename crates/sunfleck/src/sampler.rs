@@ -13,6 +13,8 @@ pub enum Domain {
     Light,
     /// Training and measurement before the first pass; stratified as light paths are.
     Prepare,
+    /// What is chosen once for a whole pass; `index` is the pass, stratified over passes.
+    Pass,
 }
 
 /// Draws (1-D or 2-D) that come from the scrambled sequence.

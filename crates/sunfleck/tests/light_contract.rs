@@ -93,7 +93,7 @@ fn scene_of(light: &Light) -> Scene {
 
 /// What a ray from `from` sees of the light: radiance, and where.
 fn seen(scene: &Scene, light: &Light, from: Vec3, d: Vec3) -> (Spectrum, Option<EmitterHit>) {
-    let world = scene.world(Wavelengths::Rgb);
+    let world = scene.world(Wavelengths::Rgb, 0.0);
     match world.intersect(&Ray::new(from, d)) {
         Some(at) => (light.le(&at.emitter_hit(), -d, Wavelengths::Rgb), Some(at.emitter_hit())),
         None => (light.le_escaped(d, Wavelengths::Rgb), None),
@@ -221,7 +221,7 @@ fn directions_toward_a_light_are_spread_by_their_density() {
 /// The emitter that an emitted ray came from, by going back along it.
 fn origin_of(scene: &Scene, ray: &Ray) -> Option<EmitterHit> {
     let back = Ray::new(ray.o + 1e-3 * ray.d, -ray.d);
-    scene.world(Wavelengths::Rgb).intersect(&back).map(|at| at.emitter_hit())
+    scene.world(Wavelengths::Rgb, 0.0).intersect(&back).map(|at| at.emitter_hit())
 }
 
 #[test]
@@ -306,7 +306,7 @@ fn light_sent_out_is_light_that_arrives() {
     const ASKED: u64 = 50_000;
     for (name, light) in lights() {
         let scene = scene_of(&light);
-        let blocked = |ray: &Ray, end: f32| scene.world(Wavelengths::Rgb).occluded(&Ray { tmax: end, ..*ray });
+        let blocked = |ray: &Ray, end: f32| scene.world(Wavelengths::Rgb, 0.0).occluded(&Ray { tmax: end, ..*ray });
         let (mut sent, mut asked) = (Tally::new(receiver::FIELDS), Tally::new(receiver::FIELDS));
         for i in 0..SENT {
             let s = &mut sampler(i);

@@ -99,7 +99,7 @@ fn a_placed_object_is_hit_and_shaded_like_the_same_geometry_moved() {
     for (kind, shape) in [("mesh", Shape::Mesh(sheet())), ("parallelogram", Shape::Parallelogram(quad))] {
         for (name, m) in placements() {
             let (instance, by_hand) = (placed(shape.clone(), m), moved(&shape, m));
-            let (instance, by_hand) = (instance.world(RGB), by_hand.world(RGB));
+            let (instance, by_hand) = (instance.world(RGB, 0.0), by_hand.world(RGB, 0.0));
             let (mut hits, mut edges) = (0, 0);
             for ray in rays_at(m, 4000) {
                 match (instance.intersect(&ray), by_hand.intersect(&ray)) {
@@ -124,7 +124,7 @@ fn a_placed_sphere_is_the_ellipsoid_of_its_matrix_with_normals_outward() {
     let ball = Sphere { centre: Vec3::new(0.1, -0.2, 0.0), radius: 0.7 };
     for (name, m) in placements() {
         let scene = placed(Shape::Sphere(ball), m);
-        let world = scene.world(RGB);
+        let world = scene.world(RGB, 0.0);
         let inverse = m.inverse();
         let size = m.matrix3.determinant().abs().cbrt();
         let mut hits = 0;
@@ -157,7 +157,7 @@ fn emitting_objects_become_lights_wherever_they_are_placed() {
         b.place(object, Affine3A::from_translation(Vec3::new(0.0, 0.0, -100.0)));
         let scene = b.build().unwrap();
         assert_eq!(scene.lights().len(), 2, "{name}");
-        let world = scene.world(RGB);
+        let world = scene.world(RGB, 0.0);
         let (mut front, mut back) = (0, 0);
         for ray in rays_at(m, 2000) {
             let Some(at) = world.intersect(&ray) else { continue };
@@ -247,7 +247,7 @@ fn lights_are_chosen_by_power_and_never_when_dark() {
     b.light(EnvironmentLight::constant(Rgb::splat(0.5)));
     b.surface(emitter(Shape::Parallelogram(Parallelogram::new(2.0 * Vec3::Y, floor.u(), floor.v())), material));
     let scene = b.build().unwrap();
-    let world = scene.world(RGB);
+    let world = scene.world(RGB, 0.0);
     let powers: Vec<f32> =
         scene.lights().iter().map(|l| sunfleck::light::Emitter::power(l, world.around()).element_sum()).collect();
     let total: f32 = powers.iter().sum();
@@ -270,7 +270,7 @@ fn what_leaves_the_scene_is_found_with_the_density_of_its_connections() {
     b.light(EnvironmentLight::constant(Rgb::new(1.0, 2.0, 3.0)));
     b.light(PointLight { p: Vec3::Y, intensity: Rgb::splat(10.0) });
     let scene = b.build().unwrap();
-    let world = scene.world(RGB);
+    let world = scene.world(RGB, 0.0);
     let (mut matched, mut escaped) = (0, world.escaped(Vec3::ZERO, Vec3::X));
     assert_eq!(escaped.next().unwrap().0, Spectrum::from_rgb(Rgb::new(1.0, 2.0, 3.0), RGB));
     assert!(escaped.next().is_none(), "no ray meets a point light");

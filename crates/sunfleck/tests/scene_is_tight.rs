@@ -80,7 +80,7 @@ fn rooms() -> Vec<(&'static str, Scene, Affine3A)> {
 fn rays_from_inside_meet_a_wall_even_through_edges_and_corners() {
     let corners = ball(3);
     for (name, scene, m) in rooms() {
-        let world = scene.world(Wavelengths::Rgb);
+        let world = scene.world(Wavelengths::Rgb, 0.0);
         for i in 0..100_000u64 {
             let s = &mut Sampler::new(3, Domain::Prepare, 0, i);
             let o = m.transform_point3(0.5 * square_to_sphere(s.next_2d()) * s.next_1d());
@@ -99,7 +99,7 @@ fn rays_from_inside_meet_a_wall_even_through_edges_and_corners() {
 #[test]
 fn walks_along_the_walls_never_get_out() {
     for (name, scene, m) in rooms() {
-        let world = scene.world(Wavelengths::Rgb);
+        let world = scene.world(Wavelengths::Rgb, 0.0);
         let (mut steps, mut leaks, mut through_corners) = (0, 0, 0);
         for walk in 0..2000 {
             let s = &mut Sampler::new(4, Domain::Prepare, 0, walk);

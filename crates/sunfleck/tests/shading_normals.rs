@@ -8,7 +8,6 @@ use sunfleck::{
     light::DirectionalLight,
     scene::{Scene, SceneBuilder},
     shape::{Mesh, Shape},
-    spectrum::Wavelengths,
 };
 
 const ALBEDO: f32 = 0.6;
@@ -45,7 +44,7 @@ fn mean_radiance(scene: &Scene, name: &str, settings: &[(&str, &str)]) -> f32 {
     let passes = 64;
     for index in 0..passes {
         image.clear();
-        prepared.render_pass(&Pass { index, seed: 1, lambda: Wavelengths::Rgb }, &mut image);
+        prepared.render_pass(&Pass::new(1, index), &mut image);
         sum += image.pixels().iter().map(|p| p.x).sum::<f32>() / spec.pixels() as f32;
     }
     sum / passes as f32

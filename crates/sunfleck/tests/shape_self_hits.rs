@@ -72,7 +72,7 @@ fn flat_self_hits(make: impl Fn(f32, Vec3, &mut Sampler) -> (Shape, Option<Affin
             let centre = offset * in_cube(s);
             let (shape, placed, [p, u, v]) = make(scale, centre, s);
             let scene = scene_of(shape, placed);
-            let world = scene.world(Wavelengths::Rgb);
+            let world = scene.world(Wavelengths::Rgb, 0.0);
             for _ in 0..POINTS {
                 // Squares draw points near the corner, where coordinates cancel.
                 let (a, b) = (s.next_1d().powi(3), s.next_1d().powi(3));
@@ -171,7 +171,7 @@ fn sphere_self_hits(placed: bool) -> (u32, u32) {
             } else {
                 scene_of(ball(centre, scale), None)
             };
-            let world = scene.world(Wavelengths::Rgb);
+            let world = scene.world(Wavelengths::Rgb, 0.0);
             for _ in 0..POINTS {
                 let target = centre + 0.3 * scale * in_cube(s);
                 let Some(at) = arrive(&world, target, 2.0 * scale, s) else { continue };
@@ -242,7 +242,7 @@ fn shadow_rays_never_meet_the_light_they_go_to_nor_the_surface_they_leave() {
                 }
             };
             let scene = lit(light, Shape::Parallelogram(floor));
-            let world = scene.world(Wavelengths::Rgb);
+            let world = scene.world(Wavelengths::Rgb, 0.0);
             for _ in 0..64 {
                 let target = floor.p() + s.next_1d() * floor.u() + s.next_1d() * floor.v();
                 let d = (scale * Vec3::new(0.0, 0.0, -0.3) + 0.05 * scale * in_cube(s)).normalize();

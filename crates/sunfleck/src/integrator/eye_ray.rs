@@ -5,7 +5,7 @@ use crate::{
     camera::{CameraRay, Project},
     film::FilmSpec,
     sampler::{Domain, Sampler},
-    scene::Scene,
+    scene::World,
     spectrum::Spectrum,
     walk::Start,
 };
@@ -21,11 +21,11 @@ pub(super) struct EyeRay {
 impl EyeRay {
     /// Sample number `sample` of pixel (`x`, `y`): for one sample a pass, the number of the pass.
     #[inline]
-    pub(super) fn new(scene: &Scene, spec: FilmSpec, pass: &Pass, sample: u64, (x, y): (u32, u32)) -> Self {
+    pub(super) fn new(world: &World, spec: FilmSpec, pass: &Pass, sample: u64, (x, y): (u32, u32)) -> Self {
         let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
         let mut sampler = Sampler::new(pass.seed, Domain::Camera, sample, pixel);
         let raster = spec.raster(x, y, sampler.next_2d());
-        let camera = scene.camera().ray(raster, sampler.next_2d());
+        let camera = world.camera().ray(raster, sampler.next_2d());
         Self { camera, sampler }
     }
     /// The beginning of a camera walk.

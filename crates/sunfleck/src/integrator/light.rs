@@ -44,8 +44,8 @@ const CHUNK: u64 = 4096;
 
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
-        let world = self.scene.world(pass.lambda);
-        self.lights_seen_directly(&world, pass, image);
+        let world = self.scene.world(pass.lambda, pass.time);
+        lights_seen_directly(&world, pass, image);
         let paths = image.spec().pixels() as u64;
         let chunks: Vec<(Vec<Splat>, Counts)> = (0..paths.div_ceil(CHUNK))
             .into_par_iter()
@@ -65,20 +65,18 @@ impl PassRenderer for Prepared<'_> {
     }
 }
 
-impl Prepared<'_> {
-    /// Paths without any scattering: found by camera rays, as a connection from a light would have no pixel to miss.
-    fn lights_seen_directly(&self, world: &World, pass: &Pass, image: &mut PassImage) {
-        let spec = image.spec();
-        image.fill(|x, y, counts| {
-            let ray = EyeRay::new(self.scene, spec, pass, pass.index, (x, y)).camera.ray;
-            counts.rays += 1;
-            let le = match world.intersect(&ray) {
-                Some(at) => world.emitted(&at),
-                None => world.escaped(ray.o, ray.d).fold(Spectrum::BLACK, |sum, (le, _)| sum + le),
-            };
-            le.to_rgb(pass.lambda)
-        });
-    }
+/// Paths without any scattering: found by camera rays, as a connection from a light would have no pixel to miss.
+fn lights_seen_directly(world: &World, pass: &Pass, image: &mut PassImage) {
+    let spec = image.spec();
+    image.fill(|x, y, counts| {
+        let ray = EyeRay::new(world, spec, pass, pass.index, (x, y)).camera.ray;
+        counts.rays += 1;
+        let le = match world.intersect(&ray) {
+            Some(at) => world.emitted(&at),
+            None => world.escaped(ray.o, ray.d).fold(Spectrum::BLACK, |sum, (le, _)| sum + le),
+        };
+        le.to_rgb(pass.lambda)
+    });
 }
 
 /// Connects every vertex of a light walk to the camera.
@@ -107,7 +105,7 @@ impl Visit for Connect<'_> {
         if a.scatterings >= self.limits.scatterings || !a.at.is_connectible() {
             return Step::On;
         }
-        let Some(c) = self.world.scene().camera().sample_wi(a.at.p, u_lens) else { return Step::On };
+        let Some(c) = self.world.camera().sample_wi(a.at.p, u_lens) else { return Step::On };
         let value = a.beta * a.at.f_cos(c.wi, Transport::Flux) * c.importance;
         if !value.is_black() {
             self.counts.rays += 1;

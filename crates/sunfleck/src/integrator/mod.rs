@@ -17,7 +17,12 @@ pub use photonmap::PhotonMapper;
 pub use ppm::{Direct, Ppm};
 pub use raycast::RayCast;
 
-use crate::{film::PassImage, scene::Scene, spectrum::Wavelengths};
+use crate::{
+    film::PassImage,
+    sampler::{Domain, Sampler},
+    scene::Scene,
+    spectrum::Wavelengths,
+};
 
 /// All that differs between passes.
 #[derive(Clone, Copy, Debug)]
@@ -28,6 +33,17 @@ pub struct Pass {
     pub seed: u64,
     /// What the lanes of a spectrum mean in this pass.
     pub lambda: Wavelengths,
+    /// When the shutter is open for this pass: 0 as it opens, 1 as it closes.
+    pub time: f32,
+}
+
+impl Pass {
+    /// Pass `index` of a render with `seed`. Times of successive passes are spread evenly over the shutter: each aligned
+    /// block of 2^k passes has one in each of 2^k equal intervals.
+    pub fn new(seed: u64, index: u64) -> Self {
+        let mut sampler = Sampler::new(seed, Domain::Pass, 0, index);
+        Self { index, seed, lambda: Wavelengths::Rgb, time: sampler.next_1d() }
+    }
 }
 
 /// An algorithm with its settings.
@@ -74,5 +90,20 @@ impl Entry {
         let made = (self.make)(&mut params)?;
         params.finish(self)?;
         Ok(made)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Pass;
+
+    #[test]
+    fn the_times_of_passes_fill_the_shutter_evenly() {
+        for (seed, first) in [(1, 0), (9, 64), (2, 1 << 20)] {
+            let mut seen = [0; 64];
+            (first..first + 64).for_each(|index| seen[(64.0 * Pass::new(seed, index).time) as usize] += 1);
+            assert_eq!(seen, [1; 64], "seed {seed}, from pass {first}");
+        }
+        assert_ne!(Pass::new(1, 5).time, Pass::new(2, 5).time);
     }
 }

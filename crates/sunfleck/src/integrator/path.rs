@@ -38,10 +38,10 @@ struct Prepared<'s> {
 
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
-        let world = self.scene.world(pass.lambda);
+        let world = self.scene.world(pass.lambda, pass.time);
         let spec = image.spec();
         image.fill(|x, y, counts| {
-            let mut eye = EyeRay::new(self.scene, spec, pass, pass.index, (x, y));
+            let mut eye = EyeRay::new(&world, spec, pass, pass.index, (x, y));
             self.radiance(&world, &eye.start(), &mut eye.sampler, counts).to_rgb(pass.lambda)
         });
     }

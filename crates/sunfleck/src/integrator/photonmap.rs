@@ -27,7 +27,7 @@ use crate::{
     film::{Counts, FilmSpec, PassImage},
     photon::Kernel,
     sampler::Domain,
-    scene::Scene,
+    scene::{MID_SHUTTER, Scene},
     spectrum::{Spectrum, Wavelengths},
     walk::Limits,
 };
@@ -126,7 +126,7 @@ impl Default for PhotonMapper {
 impl Integrator for PhotonMapper {
     fn prepare<'s>(&'s self, scene: &'s Scene, _: FilmSpec, seed: u64) -> Box<dyn PassRenderer + 's> {
         let mut counts = Counts::default();
-        let world = scene.world(Wavelengths::Rgb);
+        let world = scene.world(Wavelengths::Rgb, MID_SHUTTER);
         let kept = (!self.reshoot).then(|| Maps::shoot(self, &world, (Domain::Prepare, seed, 0), &mut counts));
         Box::new(Prepared { scene, settings: self, kept, counts })
     }
@@ -143,7 +143,7 @@ struct Prepared<'s> {
 
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
-        let world = self.scene.world(pass.lambda);
+        let world = self.scene.world(pass.lambda, pass.time);
         let own;
         let maps = if let Some(maps) = &self.kept {
             if pass.index == 0 {
@@ -160,7 +160,7 @@ impl PassRenderer for Prepared<'_> {
         image.fill_with(scratch, |eye, x, y, counts| {
             let mut sum = Spectrum::BLACK;
             for sample in pass.index * samples..(pass.index + 1) * samples {
-                let mut ray = EyeRay::new(self.scene, spec, pass, sample, (x, y));
+                let mut ray = EyeRay::new(&world, spec, pass, sample, (x, y));
                 sum += eye.radiance(&ray.start(), &mut ray.sampler, counts);
             }
             (sum / samples as f32).to_rgb(pass.lambda)

@@ -119,12 +119,12 @@ struct Prepared<'s> {
 
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
-        let world = self.scene.world(pass.lambda);
+        let world = self.scene.world(pass.lambda, pass.time);
         let spec = image.spec();
         let shrink = self.settings.schedule.radius(pass.index);
         let map = self.shoot(&world, pass, image, shrink);
         image.fill(|x, y, counts| {
-            let mut eye = EyeRay::new(self.scene, spec, pass, pass.index, (x, y));
+            let mut eye = EyeRay::new(&world, spec, pass, pass.index, (x, y));
             let mut look = Look {
                 world: &world,
                 settings: self.settings,

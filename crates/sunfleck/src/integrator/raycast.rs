@@ -42,7 +42,7 @@ struct Prepared<'s> {
 
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
-        let world = self.scene.world(pass.lambda);
+        let world = self.scene.world(pass.lambda, pass.time);
         let spec = image.spec();
         image.fill(|x, y, counts| {
             // NRenderer looks through the pixel's lower left corner; a filtered picture looks anywhere in the pixel.
@@ -51,7 +51,7 @@ impl PassRenderer for Prepared<'_> {
                 Filter::NRenderer => Vec2::splat(0.5),
                 Filter::Box => Sampler::new(pass.seed, Domain::Camera, pass.index, pixel).next_2d(),
             };
-            let ray = self.scene.camera().ray(spec.raster(x, y, u), Vec2::splat(0.5)).ray;
+            let ray = world.camera().ray(spec.raster(x, y, u), Vec2::splat(0.5)).ray;
             counts.rays += 2;
             let Some(at) = world.intersect(&ray) else { return Rgb::ZERO };
             self.shade(&world, &at, ray.o).to_rgb(pass.lambda)

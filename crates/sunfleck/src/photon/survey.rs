@@ -4,7 +4,7 @@ use crate::{
     camera::Project,
     film::FilmSpec,
     sampler::{Domain, Sampler},
-    scene::Scene,
+    scene::{MID_SHUTTER, Scene},
     spectrum::{Spectrum, Wavelengths},
     walk::{Arrival, Limits, Start, Step, Visit, walk},
 };
@@ -32,10 +32,10 @@ pub fn pixel_angle(solid_angle: f32, spec: FilmSpec) -> f32 {
 /// Follows camera paths, spread over the picture, through delta surfaces to the first connectible one. Paths that meet
 /// none are left out.
 pub fn survey(scene: &Scene, spec: FilmSpec, limits: &Limits, seed: u64) -> Vec<Sighting> {
-    let world = scene.world(Wavelengths::Rgb);
+    let world = scene.world(Wavelengths::Rgb, MID_SHUTTER);
     let look = |index| {
         let mut sampler = Sampler::new(seed, Domain::Prepare, u64::MAX, index);
-        let camera = scene.camera().ray(sampler.next_2d(), sampler.next_2d());
+        let camera = world.camera().ray(sampler.next_2d(), sampler.next_2d());
         let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance };
         let mut first = First { angle: pixel_angle(camera.solid_angle, spec), found: None };
         walk(&world, &start, limits, &mut sampler, &mut first);

@@ -3,7 +3,6 @@ use crate::{
     film::{Counts, Film, FilmSpec, PassImage},
     integrator::{Integrator, Pass},
     scene::Scene,
-    spectrum::Wavelengths,
 };
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -60,7 +59,7 @@ pub fn render(
     while !settings.budget.spent(film.passes(), start.elapsed(), longest) {
         let pass_start = Instant::now();
         image.clear();
-        let pass = Pass { index: film.passes(), seed: settings.seed, lambda: Wavelengths::Rgb };
+        let pass = Pass::new(settings.seed, film.passes());
         prepared.render_pass(&pass, &mut image);
         film.add(&image);
         counts += image.counts;

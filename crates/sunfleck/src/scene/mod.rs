@@ -50,6 +50,9 @@ struct Placement {
     normal_from_object: glam::Mat3A,
 }
 
+/// The time at which measurements before the first pass look at the scene.
+pub const MID_SHUTTER: f32 = 0.5;
+
 /// Everything a pass may read.
 pub struct Scene {
     textures: Vec<Texture>,
@@ -87,13 +90,9 @@ pub struct SceneCounts {
 }
 
 impl Scene {
-    /// The scene as a pass at `lambda` sees it.
-    pub fn world(&self, lambda: Wavelengths) -> World<'_> {
-        World::new(self, lambda)
-    }
-    /// The eye.
-    pub fn camera(&self) -> &Camera {
-        &self.camera
+    /// The scene as a pass at `lambda` sees it, at `time` in [0, 1] while the shutter is open.
+    pub fn world(&self, lambda: Wavelengths, time: f32) -> World<'_> {
+        World::new(self, lambda, time)
     }
     /// All lights, by [`LightId`].
     pub fn lights(&self) -> &[Light] {

@@ -2,6 +2,7 @@
 use super::{Interaction, Scene, Surface};
 use crate::{
     bsdf::Lookup,
+    camera::Camera,
     light::{Emitter, LiSample, Light, LightId, Surroundings},
     math::Ray,
     shape::SurfacePoint,
@@ -10,10 +11,10 @@ use crate::{
 use glam::{Mat3A, Vec2, Vec3};
 
 /// What algorithms ask: rays, lights, materials.
-#[derive(Clone, Copy)]
 pub struct World<'s> {
     scene: &'s Scene,
     around: Surroundings,
+    time: f32,
 }
 
 /// A light drawn for next-event estimation, with all probabilities multiplied in.
@@ -26,8 +27,8 @@ pub struct DirectSample {
 }
 
 impl<'s> World<'s> {
-    pub(super) fn new(scene: &'s Scene, lambda: Wavelengths) -> Self {
-        Self { scene, around: scene.surroundings(lambda) }
+    pub(super) fn new(scene: &'s Scene, lambda: Wavelengths, time: f32) -> Self {
+        Self { scene, around: scene.surroundings(lambda), time }
     }
     /// The scene behind it.
     pub fn scene(&self) -> &'s Scene {
@@ -36,6 +37,15 @@ impl<'s> World<'s> {
     /// What the lanes mean.
     pub fn lambda(&self) -> Wavelengths {
         self.around.lambda
+    }
+    /// When, in [0, 1] while the shutter is open.
+    pub fn time(&self) -> f32 {
+        self.time
+    }
+    /// The eye.
+    #[inline]
+    pub fn camera(&self) -> &Camera {
+        &self.scene.camera
     }
     /// What lights may know of the scene.
     pub fn around(&self) -> &Surroundings {

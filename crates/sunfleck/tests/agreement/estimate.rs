@@ -3,7 +3,6 @@ use sunfleck::{
     film::{FilmSpec, Filter, PassImage},
     integrator::{Params, Pass, find},
     scene::Scene,
-    spectrum::Wavelengths,
 };
 
 /// Edge of a picture and of a block in pixels.
@@ -62,7 +61,7 @@ pub(crate) fn estimate(scene: &Scene, name: &'static str, passes: u64) -> Estima
     let mut picture = Sums::default();
     for index in 0..passes {
         image.clear();
-        prepared.render_pass(&Pass { index, seed, lambda: Wavelengths::Rgb }, &mut image);
+        prepared.render_pass(&Pass::new(seed, index), &mut image);
         let means = block_means(&image);
         blocks.iter_mut().zip(&means).for_each(|(s, m)| s.add(*m));
         picture.add(means.iter().sum::<f64>() / means.len() as f64);
