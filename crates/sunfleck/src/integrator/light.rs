@@ -5,7 +5,7 @@ use crate::{
     bsdf::Transport,
     camera::Project,
     film::{Counts, FilmSpec, PassImage, Splat},
-    photon::emit,
+    photon::Source,
     sampler::{Domain, Sampler},
     scene::{Scene, World},
     spectrum::Spectrum,
@@ -90,7 +90,7 @@ struct Connect<'w> {
 impl Connect<'_> {
     fn trace(&mut self, mut sampler: Sampler, paths: u64) {
         self.counts.emitted += 1;
-        let Some(start) = emit(self.world, &mut sampler) else { return };
+        let Some(start) = Source::plain().emit(self.world, &mut sampler).map(|e| e.start) else { return };
         let start = Start { beta: start.beta / paths as f32, ..start };
         let world = self.world;
         let limits = self.limits;

@@ -16,7 +16,7 @@ use super::{
 };
 use crate::{
     film::{Counts, FilmSpec, PassImage},
-    photon::{Disc, Keep, Kernel, RadiusMap, Reach, Schedule, Shower, gather_within, pixel_angle, survey},
+    photon::{Disc, Keep, Kernel, RadiusMap, Reach, Schedule, Shower, Source, gather_within, pixel_angle, survey},
     sampler::{Domain, Sampler},
     scene::{Scene, World},
     spectrum::Spectrum,
@@ -107,7 +107,7 @@ impl Integrator for Ppm {
             },
             Reach::fixed,
         );
-        Box::new(Prepared { scene, settings: self, reach })
+        Box::new(Prepared { scene, settings: self, reach, source: Source::plain() })
     }
 }
 
@@ -115,6 +115,7 @@ struct Prepared<'s> {
     scene: &'s Scene,
     settings: &'s Ppm,
     reach: Reach,
+    source: Source,
 }
 
 impl PassRenderer for Prepared<'_> {
@@ -154,7 +155,7 @@ impl Prepared<'_> {
             keep: if self.settings.direct == Direct::Photons { Keep::All } else { Keep::Scattered },
             limits: self.settings.limits,
         };
-        let catch = shower.shoot(world);
+        let catch = shower.shoot(world, &self.source);
         image.counts += catch.counts;
         RadiusMap::new(&catch, self.reach.typical() * shrink)
     }

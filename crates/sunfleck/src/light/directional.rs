@@ -1,5 +1,5 @@
 //! Light from infinitely far away in one direction: the sun without its disk.
-use super::{Emitter, LeSample, LiSample, LightEnd, Surroundings};
+use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
 use crate::spectrum::{Rgb, Spectrum};
 use glam::{Vec2, Vec3};
 
@@ -41,6 +41,11 @@ impl Emitter for DirectionalLight {
             pdf_dir: 1.0,
             cos: 1.0,
         })
+    }
+    /// `d` is taken to be the direction of the light: no other is asked for.
+    #[inline]
+    fn pdf_le(&self, hit: Option<&EmitterHit>, _: Vec3, around: &Surroundings) -> (f32, f32) {
+        if hit.is_some() { (0.0, 0.0) } else { (1.0 / around.disk_area(), 1.0) }
     }
     fn is_delta(&self) -> bool {
         true

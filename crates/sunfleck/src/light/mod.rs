@@ -128,11 +128,9 @@ pub trait Emitter {
     }
     /// Draws an emitted ray.
     fn sample_le(&self, u_area: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample>;
-    /// Densities `(pdf_area, pdf_dir)` with which [`Emitter::sample_le`] emits from `hit` in direction `d`; zero where
-    /// it never would, and for delta lights.
-    fn pdf_le(&self, _hit: Option<&EmitterHit>, _d: Vec3, _around: &Surroundings) -> (f32, f32) {
-        (0.0, 0.0)
-    }
+    /// Densities `(pdf_area, pdf_dir)` with which [`Emitter::sample_le`] emits in direction `d` from `hit` (`None` for a
+    /// light without a surface), in the convention of [`LeSample`]; zero where it never would.
+    fn pdf_le(&self, hit: Option<&EmitterHit>, d: Vec3, around: &Surroundings) -> (f32, f32);
     /// Radiance leaving the emitting surface at `hit` in direction `wo`. Black for lights without a surface.
     fn le(&self, _hit: &EmitterHit, _wo: Vec3, _lambda: Wavelengths) -> Spectrum {
         Spectrum::BLACK

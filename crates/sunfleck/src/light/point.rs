@@ -1,5 +1,5 @@
 //! A light without extent that shines evenly in all directions.
-use super::{Emitter, LeSample, LiSample, LightEnd, Surroundings};
+use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
 use crate::{
     math::{Ray, warp::square_to_sphere},
     spectrum::{Rgb, Spectrum},
@@ -36,6 +36,10 @@ impl Emitter for PointLight {
         let ray = Ray { o: self.p, d: square_to_sphere(u_dir), tmin: 0.0, tmax: f32::INFINITY };
         let le = Spectrum::from_rgb(self.intensity, around.lambda);
         Some(LeSample { ray, le, pdf_area: 1.0, pdf_dir: 0.25 / PI, cos: 1.0 })
+    }
+    #[inline]
+    fn pdf_le(&self, hit: Option<&EmitterHit>, _: Vec3, _: &Surroundings) -> (f32, f32) {
+        if hit.is_some() { (0.0, 0.0) } else { (1.0, 0.25 / PI) }
     }
     fn is_delta(&self) -> bool {
         true

@@ -1,5 +1,5 @@
 //! A light without extent that shines into a cone with a soft edge.
-use super::{Emitter, LeSample, LiSample, LightEnd, Surroundings};
+use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
 use crate::{
     math::{Frame, Local, Ray},
     spectrum::{Rgb, Spectrum},
@@ -139,6 +139,10 @@ impl Emitter for SpotLight {
             pdf_dir: falloff / self.solid_angle(),
             cos: 1.0,
         })
+    }
+    #[inline]
+    fn pdf_le(&self, hit: Option<&EmitterHit>, d: Vec3, _: &Surroundings) -> (f32, f32) {
+        if hit.is_some() { (0.0, 0.0) } else { (1.0, self.falloff(d) / self.solid_angle()) }
     }
     fn is_delta(&self) -> bool {
         true

@@ -1,5 +1,5 @@
 //! Which arrivals of light paths become photons, and showers of such paths.
-use super::emit;
+use super::Source;
 use crate::{
     film::Counts,
     sampler::{Domain, Sampler},
@@ -80,9 +80,9 @@ pub struct Catch {
 const CHUNK: u64 = 1024;
 
 impl Shower {
-    /// Shoots, in parallel; the catch does not depend on the number of threads. Flux is normalised: the photons kept
+    /// Shoots from `source`, in parallel; the catch does not depend on the number of threads. Flux is normalised: the photons kept
     /// by [`Keep::All`] in a closed room of black walls sum to the power of the lights.
-    pub fn shoot(&self, world: &World) -> Catch {
+    pub fn shoot(&self, world: &World, source: &Source) -> Catch {
         // A photon needs one more scattering, where it is gathered.
         let Some(scatterings) = self.limits.scatterings.checked_sub(1) else { return Catch::default() };
         let limits = Limits { scatterings, ..self.limits };
@@ -91,7 +91,7 @@ impl Shower {
             .map(|c| {
                 let mut deposit = Deposit { keep: self.keep, catch: Catch::default() };
                 for path in c * CHUNK..((c + 1) * CHUNK).min(self.paths) {
-                    self.trace(world, limits, path, &mut deposit);
+                    self.trace(world, source, limits, path, &mut deposit);
                 }
                 deposit.catch
             })
@@ -99,10 +99,10 @@ impl Shower {
         Catch::join(&chunks)
     }
 
-    fn trace(&self, world: &World, limits: Limits, path: u64, deposit: &mut Deposit) {
+    fn trace(&self, world: &World, source: &Source, limits: Limits, path: u64, deposit: &mut Deposit) {
         let mut sampler = Sampler::new(self.seed, self.domain, self.pass, self.first + path);
         deposit.catch.counts.emitted += 1;
-        let Some(mut start) = emit(world, &mut sampler) else { return };
+        let Some(mut start) = source.emit(world, &mut sampler).map(|e| e.start) else { return };
         start.beta = start.beta / self.paths as f32;
         deposit.catch.counts.rays += walk(world, &start, &limits, &mut sampler, deposit);
     }

@@ -3,29 +3,29 @@
 //! The way of a photon, one room after the other, never back:
 //!
 //! ```text
-//!  light ──emit──▶ walk ──deposit──▶ map ──gather──▶ integrator
+//!  light ─source─▶ walk ──deposit──▶ map ──gather──▶ integrator
 //!                    │                 ▲      ▲
 //!                    └── the camera's  │      └── kernel: what a photon at a distance counts
 //!                        own walk ─ survey ─ radius: how far a gather reaches
 //! ```
 //!
-//! - [`mod@emit`]: chooses a light and starts a path of known flux;
+//! - [`source`]: chooses a light and starts a path of known flux and density;
 //! - [`deposit`]: which arrivals of a path are kept, and a [`Shower`] of many paths, the same for any number of threads;
 //! - [`map`]: photons beside an index of their positions, by radius or by number;
 //! - [`kernel`], [`gather`]: the density estimate;
 //! - [`mod@survey`], [`radius`]: what the camera sees of the scene, and from it the first radius and how it shrinks.
 pub mod deposit;
-pub mod emit;
 pub mod gather;
 pub mod kernel;
 pub mod map;
 pub mod radius;
+pub mod source;
 pub mod survey;
 
 pub use deposit::{Catch, Keep, Photon, Shower};
-pub use emit::emit;
 pub use gather::{Disc, NearestQuery, gather_nearest, gather_within};
 pub use kernel::Kernel;
 pub use map::{NearestMap, RadiusMap};
 pub use radius::{Reach, Schedule};
+pub use source::{Emission, Source};
 pub use survey::{Sighting, pixel_angle, survey};

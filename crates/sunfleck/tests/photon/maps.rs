@@ -7,7 +7,8 @@ use sunfleck::{
     light::PointLight,
     math::{Ray, Vec2},
     photon::{
-        Catch, Disc, Keep, Kernel, NearestMap, NearestQuery, Photon, RadiusMap, Shower, gather_nearest, gather_within,
+        Catch, Disc, Keep, Kernel, NearestMap, NearestQuery, Photon, RadiusMap, Shower, Source, gather_nearest,
+        gather_within,
     },
     sampler::{Domain, Sampler},
     scene::{Interaction, Scene, SceneBuilder},
@@ -39,7 +40,7 @@ fn lamp_in_a_box(a: f32, power: Rgb) -> Scene {
 fn photons_at_first_hits_in_a_closed_box_carry_all_power() {
     let power = Rgb::new(7.0, 3.0, 1.0);
     let scene = lamp_in_a_box(0.5, power);
-    let catch = shower(4096, Keep::All, 1).shoot(&scene.world(RGB, 0.0));
+    let catch = shower(4096, Keep::All, 1).shoot(&scene.world(RGB, 0.0), &Source::plain());
     assert_eq!((catch.counts.emitted, catch.photons.len()), (4096, 4096));
     assert!((flux(&catch) / power - 1.0).abs().max_element() < 1e-4, "{}", flux(&catch));
 }
@@ -53,7 +54,7 @@ fn two_lamps_of_unlike_power_give_photons_of_like_flux_and_the_sum_of_their_powe
         let intensity = Rgb::splat(watts / (4.0 * std::f32::consts::PI));
         b.light(PointLight { p: Vec3::new(x, 0.0, 0.0), intensity });
     }
-    let catch = shower(10_000, Keep::All, 1).shoot(&b.build().unwrap().world(RGB, 0.0));
+    let catch = shower(10_000, Keep::All, 1).shoot(&b.build().unwrap().world(RGB, 0.0), &Source::plain());
     assert!((flux(&catch) / 10.0 - 1.0).abs().max_element() < 1e-4, "{}", flux(&catch));
     assert!(catch.photons.iter().all(|p| (p.flux.max() / 1e-3 - 1.0).abs() < 1e-4));
 }
@@ -62,7 +63,7 @@ fn two_lamps_of_unlike_power_give_photons_of_like_flux_and_the_sum_of_their_powe
 fn all_photons_of_a_closed_grey_box_carry_the_geometric_series_of_its_power() {
     let (a, power) = (0.6f32, Rgb::splat(2.0));
     let scene = lamp_in_a_box(a, power);
-    let catch = shower(65536, Keep::All, 1000).shoot(&scene.world(RGB, 0.0));
+    let catch = shower(65536, Keep::All, 1000).shoot(&scene.world(RGB, 0.0), &Source::plain());
     let want = power / (1.0 - a);
     assert!((flux(&catch) / want - 1.0).abs().max_element() < 0.01, "{} {want}", flux(&catch));
     // Roulette thins photons instead of dimming them.
@@ -78,8 +79,8 @@ fn keep_rules_part_the_photons() {
     b.add(ball([0.0, -0.2, 0.2], 0.5), clear);
     let scene = b.build().unwrap();
     let world = scene.world(RGB, 0.0);
-    let all = shower(20000, Keep::All, 20).shoot(&world);
-    let part = |keep| shower(20000, keep, 20).shoot(&world);
+    let all = shower(20000, Keep::All, 20).shoot(&world, &Source::plain());
+    let part = |keep| shower(20000, keep, 20).shoot(&world, &Source::plain());
     let direct = all.photons.iter().filter(|p| p.scatterings == 0).count();
     let (scattered, caustic, indirect) = (part(Keep::Scattered), part(Keep::Caustic), part(Keep::Indirect));
     assert!(caustic.photons.len() > 500, "the scene has no caustic");
@@ -93,7 +94,7 @@ fn keep_rules_part_the_photons() {
 fn light_paths_leave_the_gathers_scattering_to_the_eye() {
     let scene = lamp_in_a_box(0.8, Rgb::ONE);
     for limit in 0..5u32 {
-        let catch = shower(500, Keep::All, limit).shoot(&scene.world(RGB, 0.0));
+        let catch = shower(500, Keep::All, limit).shoot(&scene.world(RGB, 0.0), &Source::plain());
         assert_eq!(catch.photons.iter().map(|p| p.scatterings + 1).max().unwrap_or(0), limit);
     }
 }
@@ -103,7 +104,7 @@ fn a_shower_is_the_same_for_any_number_of_threads() {
     let scene = lamp_in_a_box(0.8, Rgb::ONE);
     let catch = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| shower(5000, Keep::All, 20).shoot(&scene.world(RGB, 0.0)))
+        pool.install(|| shower(5000, Keep::All, 20).shoot(&scene.world(RGB, 0.0), &Source::plain()))
     };
     let one = catch(1);
     for other in [catch(2), catch(7)] {

@@ -2,7 +2,7 @@
 use super::PhotonMapper;
 use crate::{
     film::Counts,
-    photon::{Disc, Keep, Kernel, NearestMap, NearestQuery, RadiusMap, Shower, gather_nearest, gather_within},
+    photon::{Disc, Keep, Kernel, NearestMap, NearestQuery, RadiusMap, Shower, Source, gather_nearest, gather_within},
     sampler::Domain,
     scene::{Interaction, World},
     spectrum::Spectrum,
@@ -38,7 +38,7 @@ impl Maps {
     ) -> Self {
         let limits = settings.limits;
         let mut map = |first, paths, keep| {
-            let catch = Shower { seed, domain, pass, first, paths, keep, limits }.shoot(world);
+            let catch = Shower { seed, domain, pass, first, paths, keep, limits }.shoot(world, &Source::plain());
             *counts += catch.counts;
             if let Some(radius) = settings.radius {
                 return Map::Within(RadiusMap::new(&catch, radius), radius);
