@@ -10,6 +10,6 @@ mod points;
 mod ray;
 
 pub use aabb::Aabb;
-pub use bvh::{Bvh, Counts, Geometry, Instance, Quality, SimdLevel};
+pub use bvh::{Bvh, Counts, Geometry, Instance, Objects, Quality, SimdLevel};
 pub use points::{KdTree, Neighbours, PointGrid};
 pub use ray::{Hit, Ray};

@@ -6,8 +6,9 @@
 //! Geometry --refs--> boxes --build--> binary tree --collapse, emit--> Tables --traverse--> Hit
 //! ```
 //!
-//! World and objects share one set of tables and one node format; an instance is a leaf of the world whose object
-//! starts at another node. `traverse` walks the tables with the vector operations of `simd`.
+//! World and objects share one node format; an instance is a leaf of the world whose object starts at some node of the
+//! objects' tables. Those are shared, so that objects can be placed anew, as when they move, at the price of the few
+//! nodes above them. `traverse` walks the tables with the vector operations of `simd`.
 
 mod binning;
 mod build;
@@ -16,6 +17,7 @@ mod collapse;
 mod emit;
 mod instance;
 mod node;
+mod objects;
 mod refs;
 mod simd;
 mod slabs;
@@ -26,16 +28,17 @@ mod traverse;
 mod triangle;
 
 pub use instance::Instance;
+pub use objects::Objects;
 pub use simd::SimdLevel;
 
 use crate::{Aabb, Hit, Ray};
 use emit::Wide;
 use glam::{Vec3, Vec4Swizzles};
 use instance::Placed;
-use node::{Child, Node, Offsets};
-use rayon::prelude::*;
-use refs::{Bounds, Owner, Ref};
+use node::{Child, Node};
+use refs::{Bounds, Ref};
 use sphere::Sphere;
+use std::sync::Arc;
 use triangle::Block;
 
 /// A shape as the caller has it.
@@ -91,7 +94,8 @@ pub struct Counts {
     pub dropped_instances: usize,
 }
 
-/// The shared tables that traversal walks; node 0 is the root of the world.
+/// The tables that traversal walks: those of the world, where node 0 is the root, or those of all objects.
+#[derive(Default)]
 struct Tables {
     nodes: Vec<Node>,
     blocks: Vec<Block>,
@@ -101,7 +105,8 @@ struct Tables {
 
 /// A bounding volume hierarchy, immutable once built.
 pub struct Bvh {
-    tables: Tables,
+    world: Tables,
+    objects: Arc<Tables>,
     bounds: Aabb,
     counts: Counts,
     level: SimdLevel,
@@ -124,35 +129,7 @@ impl Bvh {
     /// # Panics
     /// If an index of a mesh or the object of an instance is out of range, or if there are more than 2^28 primitives.
     pub fn build(world: &[Geometry], objects: &[&[Geometry]], instances: &[Instance], quality: Quality) -> Self {
-        let parts: Vec<Part> = objects.par_iter().map(|object| Part::build(object, Vec::new(), quality)).collect();
-        let mut roots = Vec::with_capacity(parts.len());
-        let mut placed = Vec::new();
-        let mut refs = Vec::new();
-        let mut counts = Counts::default();
-        for (id, instance) in instances.iter().enumerate() {
-            let bounds = &parts[instance.object as usize].bounds;
-            match place(instance, id as u32, bounds, placed.len() as u32) {
-                Some((instance, reference)) => {
-                    placed.push(instance);
-                    refs.push(reference);
-                }
-                None => counts.dropped_instances += 1,
-            }
-        }
-        counts.instances = placed.len();
-        let world = Part::build(world, refs, quality);
-        let bounds = world.bounds;
-        counts.add(&world.counts);
-        let mut tables =
-            Tables { nodes: world.wide.nodes, blocks: world.wide.blocks, spheres: world.spheres, instances: placed };
-        for part in parts {
-            counts.add(&part.counts);
-            roots.push(tables.append(part));
-        }
-        for (instance, from) in tables.instances.iter_mut().map(|placed| (placed.id as usize, placed)) {
-            from.root = roots[instances[instance].object as usize];
-        }
-        Self { tables, bounds, counts, level: SimdLevel::detect() }
+        Objects::build(objects, quality).place(world, instances, quality)
     }
 
     /// The same hierarchy, traced with the given instructions, or with the best that the processor has if it lacks
@@ -169,23 +146,23 @@ impl Bvh {
 
     /// The nearest hit, if there is one.
     pub fn closest(&self, ray: &Ray) -> Option<Hit> {
-        self.tables.trace::<false, _>(self.level, ray, |_| true)
+        self.trace::<false, _>(ray, |_| true)
     }
 
     /// Whether anything lies on the ray.
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.tables.trace::<true, _>(self.level, ray, |_| true).is_some()
+        self.trace::<true, _>(ray, |_| true).is_some()
     }
 
     /// The nearest hit among those that `accept` lets count. It may be asked about hits that turn out not to be the
     /// nearest, in no particular order, and about the same triangle more than once.
     pub fn closest_filtered(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> Option<Hit> {
-        self.tables.trace::<false, _>(self.level, ray, accept)
+        self.trace::<false, _>(ray, accept)
     }
 
     /// Whether anything that `accept` lets count lies on the ray.
     pub fn occluded_filtered(&self, ray: &Ray, accept: impl Fn(&Hit) -> bool) -> bool {
-        self.tables.trace::<true, _>(self.level, ray, accept).is_some()
+        self.trace::<true, _>(ray, accept).is_some()
     }
 
     /// The box around everything, in world space; empty if there is nothing.
@@ -200,10 +177,7 @@ impl Bvh {
 
     /// Size of all tables, in bytes.
     pub fn memory_bytes(&self) -> usize {
-        size_of_val(self.tables.nodes.as_slice())
-            + size_of_val(self.tables.blocks.as_slice())
-            + size_of_val(self.tables.spheres.as_slice())
-            + size_of_val(self.tables.instances.as_slice())
+        self.world.memory_bytes() + self.objects.memory_bytes()
     }
 }
 
@@ -235,29 +209,10 @@ impl Part {
 }
 
 impl Tables {
-    /// Adds the tables of an object and returns its root.
-    fn append(&mut self, part: Part) -> u32 {
-        let by = Offsets {
-            nodes: self.nodes.len() as u32,
-            blocks: self.blocks.len() as u32,
-            spheres: self.spheres.len() as u32,
-        };
-        self.nodes.extend(part.wide.nodes.into_iter().map(|mut node| {
-            node.children = node.children.map(|child| child.moved(by));
-            node
-        }));
-        self.blocks.extend(part.wide.blocks);
-        self.spheres.extend(part.spheres);
-        assert!(self.nodes.len().max(self.blocks.len()).max(self.spheres.len()) < Child::MAX_INDEX);
-        by.nodes
+    fn memory_bytes(&self) -> usize {
+        size_of_val(self.nodes.as_slice())
+            + size_of_val(self.blocks.as_slice())
+            + size_of_val(self.spheres.as_slice())
+            + size_of_val(self.instances.as_slice())
     }
-}
-
-/// An instance for the tables and its reference for the builder; `None` if no ray can hit it.
-fn place(instance: &Instance, id: u32, bounds: &Aabb, index: u32) -> Option<(Placed, Ref)> {
-    let map = &instance.world_from_object;
-    let object_from_world = instance::invert(map)?;
-    let world = instance::transformed_bounds(map, bounds);
-    let usable = !world.is_empty() && world.min.abs().max(world.max.abs()).max_element() < 1e18;
-    usable.then(|| (Placed { object_from_world, root: 0, id }, Ref::new(world.min, world.max, Owner::Instance(index))))
 }

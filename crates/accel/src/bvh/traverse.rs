@@ -1,7 +1,7 @@
 //! The one traversal, for every kind of leaf and every instruction set.
 
 use super::{
-    Tables,
+    Bvh, Tables,
     node::{Child, Leaf, WIDTH},
     simd::{Simd, SimdLevel, portable::Portable},
     slabs::Slabs,
@@ -11,16 +11,11 @@ use super::{
 use crate::{Hit, Ray};
 use std::ops::Range;
 
-impl Tables {
+impl Bvh {
     /// The nearest accepted hit, or with `ANY` the first one found.
     #[inline]
-    pub(super) fn trace<const ANY: bool, F: Fn(&Hit) -> bool>(
-        &self,
-        level: SimdLevel,
-        ray: &Ray,
-        accept: F,
-    ) -> Option<Hit> {
-        match level {
+    pub(super) fn trace<const ANY: bool, F: Fn(&Hit) -> bool>(&self, ray: &Ray, accept: F) -> Option<Hit> {
+        match self.level {
             // SAFETY: `Bvh` only holds a level that the processor was found to have.
             #[cfg(target_arch = "x86_64")]
             SimdLevel::Avx512 => unsafe { trace_avx512::<ANY, F>(self, ray, accept) },
@@ -34,23 +29,25 @@ impl Tables {
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-fn trace_avx2<const ANY: bool, F: Fn(&Hit) -> bool>(tables: &Tables, ray: &Ray, accept: F) -> Option<Hit> {
+fn trace_avx2<const ANY: bool, F: Fn(&Hit) -> bool>(bvh: &Bvh, ray: &Ray, accept: F) -> Option<Hit> {
     // SAFETY: this function is only entered on a processor with these features.
     let token = unsafe { super::simd::x86::Avx2::new_unchecked() };
-    walk::<_, ANY, F>(token, tables, ray, accept)
+    walk::<_, ANY, F>(token, bvh, ray, accept)
 }
 
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx512f,avx512vl,avx512dq,avx2,fma,bmi1,bmi2,lzcnt,popcnt")]
-fn trace_avx512<const ANY: bool, F: Fn(&Hit) -> bool>(tables: &Tables, ray: &Ray, accept: F) -> Option<Hit> {
+fn trace_avx512<const ANY: bool, F: Fn(&Hit) -> bool>(bvh: &Bvh, ray: &Ray, accept: F) -> Option<Hit> {
     // SAFETY: this function is only entered on a processor with these features.
     let token = unsafe { super::simd::x86::Avx512::new_unchecked() };
-    walk::<_, ANY, F>(token, tables, ray, accept)
+    walk::<_, ANY, F>(token, bvh, ray, accept)
 }
 
 /// The state of one query.
 struct Walk<'a, S, F> {
     s: S,
+    bvh: &'a Bvh,
+    /// The tables of the space that is being walked.
     tables: &'a Tables,
     accept: F,
     /// The ray in the space that is being walked: the world's, or that of an instance's object.
@@ -65,13 +62,14 @@ struct Walk<'a, S, F> {
 /// A depth-first walk, nearest child first. Each round of the outer loop is a stretch in one space, for which the ray
 /// is prepared once.
 #[inline(always)]
-fn walk<S: Simd, const ANY: bool, F: Fn(&Hit) -> bool>(s: S, tables: &Tables, ray: &Ray, accept: F) -> Option<Hit> {
+fn walk<S: Simd, const ANY: bool, F: Fn(&Hit) -> bool>(s: S, bvh: &Bvh, ray: &Ray, accept: F) -> Option<Hit> {
     if !ray.is_usable() {
         return None;
     }
     let tmin = if ray.tmin > 0.0 { ray.tmin } else { 0.0 };
     let instance = Hit::NO_INSTANCE;
-    let mut walk = Walk { s, tables, accept, ray: *ray, instance, tmin, tmax: ray.tmax, best: None };
+    let tables = &bvh.world;
+    let mut walk = Walk { s, bvh, tables, accept, ray: *ray, instance, tmin, tmax: ray.tmax, best: None };
     let mut stack = Stack::new();
     let mut child = Child::inner(0);
     'space: loop {
@@ -90,7 +88,7 @@ fn walk<S: Simd, const ANY: bool, F: Fn(&Hit) -> bool>(s: S, tables: &Tables, ra
                     }
                 }
                 Some(Leaf::LeaveInstance) => {
-                    (walk.ray, walk.instance) = (*ray, Hit::NO_INSTANCE);
+                    (walk.tables, walk.ray, walk.instance) = (&bvh.world, *ray, Hit::NO_INSTANCE);
                     match pop::<ANY>(&mut stack, walk.tmax) {
                         Some(next) => child = next,
                         None => return walk.best,
@@ -200,10 +198,10 @@ impl<S: Simd, F: Fn(&Hit) -> bool> Walk<'_, S, F> {
     /// Moves the ray into an instance and gives the root of its object; `None` if the ray does not survive that.
     #[inline(always)]
     fn enter(&mut self, index: u32) -> Option<Child> {
-        let placed = &self.tables.instances[index as usize];
+        let placed = &self.bvh.world.instances[index as usize];
         let local = placed.localise(&self.ray);
         local.is_usable().then(|| {
-            (self.ray, self.instance) = (local, placed.id);
+            (self.tables, self.ray, self.instance) = (&self.bvh.objects, local, placed.id);
             Child::inner(placed.root)
         })
     }

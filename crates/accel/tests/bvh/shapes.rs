@@ -2,7 +2,7 @@
 
 use crate::LEVELS;
 use crate::support::{Rng, brute_force, bumpy_ball, triangle_soup};
-use accel::{Bvh, Geometry, Hit, Instance, Quality, Ray};
+use accel::{Bvh, Geometry, Hit, Instance, Objects, Quality, Ray};
 use glam::{Affine3A, Quat, Vec3};
 
 fn spheres(all: &[(Vec3, f32)]) -> Bvh {
@@ -83,6 +83,34 @@ fn instances_answer_like_their_transformed_triangles() {
                 assert!((found.t - expected.t).abs() <= 1e-4 * expected.t, "{found:?} {expected:?}");
                 assert_eq!(found.instance, owner[expected.primitive as usize]);
             }
+        }
+    }
+}
+
+#[test]
+fn objects_placed_anew_answer_as_if_built_anew() {
+    let (ball, soup) = (bumpy_ball(2, 0.3), triangle_soup(300, 0.4, 9));
+    let sphere = Geometry::Sphere { centre: Vec3::X, radius: 0.5 };
+    let groups: [&[Geometry]; 3] = [&[ball.geometry()], &[], &[soup.geometry(), sphere]];
+    let objects = Objects::build(&groups, Quality::Default);
+    assert!(objects.bounds(1).is_empty() && objects.bounds(2).contains(Vec3::X * 1.5));
+    let mut rng = Rng(31);
+    for moment in 0..20 {
+        let mut place = |object| Instance {
+            object,
+            world_from_object: Affine3A::from_rotation_translation(
+                Quat::from_axis_angle(rng.direction(), 6.0 * rng.uniform()),
+                rng.cube() * 2.0,
+            ),
+        };
+        let instances: Vec<Instance> = (0..moment).map(|i| place(i % 3)).collect();
+        let world = &[ball.geometry(), sphere][..moment as usize % 3];
+        let moved = objects.place(world, &instances, Quality::Default);
+        let built = Bvh::build(world, &groups, &instances, Quality::Default);
+        assert_eq!((moved.counts(), moved.bounds()), (built.counts(), built.bounds()));
+        for _ in 0..300 {
+            let ray = Ray::new(rng.cube() * 3.0, rng.direction());
+            assert_eq!(moved.closest(&ray), built.closest(&ray));
         }
     }
 }

@@ -1,0 +1,115 @@
+//! Hierarchies of objects, built once and placed as often as needed.
+
+use super::{
+    Bvh, Counts, Geometry, Part, Quality, Tables,
+    instance::{self, Instance, Placed},
+    node::{Child, Offsets},
+    refs::{Owner, Ref},
+    simd::SimdLevel,
+};
+use crate::Aabb;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// The hierarchies of some objects, shared by everything that [`Objects::place`] makes of them.
+#[derive(Clone)]
+pub struct Objects {
+    tables: Arc<Tables>,
+    entrances: Vec<Entrance>,
+    /// Of all objects together.
+    counts: Counts,
+}
+
+/// Where an object's hierarchy starts, and the box around it.
+#[derive(Clone, Copy)]
+struct Entrance {
+    root: u32,
+    bounds: Aabb,
+}
+
+impl Objects {
+    /// Builds the hierarchy of each object. The result does not depend on the number of threads.
+    ///
+    /// # Panics
+    /// If an index of a mesh is out of range, or if there are more than 2^28 primitives.
+    pub fn build(objects: &[&[Geometry]], quality: Quality) -> Self {
+        let parts: Vec<Part> = objects.par_iter().map(|object| Part::build(object, Vec::new(), quality)).collect();
+        let (mut tables, mut counts) = (Tables::default(), Counts::default());
+        let mut enter = |part: Part| {
+            counts.add(&part.counts);
+            Entrance { bounds: part.bounds, root: tables.append(part) }
+        };
+        let entrances = parts.into_iter().map(&mut enter).collect();
+        Self { tables: Arc::new(tables), entrances, counts }
+    }
+
+    /// The box around object `object`, in its own space; empty if there is nothing.
+    ///
+    /// # Panics
+    /// If there is no such object.
+    pub fn bounds(&self, object: u32) -> Aabb {
+        self.entrances[object as usize].bounds
+    }
+
+    /// The hierarchy over geometry placed directly in world space and over `instances` of these objects; see
+    /// [`Bvh::build`]. Takes time for the world's own geometry and for the instances, but not for the objects.
+    ///
+    /// # Panics
+    /// If an index of a mesh or the object of an instance is out of range, or if there are more than 2^28 primitives.
+    pub fn place(&self, world: &[Geometry], instances: &[Instance], quality: Quality) -> Bvh {
+        let (mut placed, mut refs, mut counts) = (Vec::new(), Vec::new(), self.counts);
+        for (id, instance) in instances.iter().enumerate() {
+            match self.enter(instance, id as u32, placed.len() as u32) {
+                Some((instance, reference)) => {
+                    placed.push(instance);
+                    refs.push(reference);
+                }
+                None => counts.dropped_instances += 1,
+            }
+        }
+        counts.instances = placed.len();
+        let part = Part::build(world, refs, quality);
+        counts.add(&part.counts);
+        Bvh {
+            bounds: part.bounds,
+            world: Tables {
+                nodes: part.wide.nodes,
+                blocks: part.wide.blocks,
+                spheres: part.spheres,
+                instances: placed,
+            },
+            objects: Arc::clone(&self.tables),
+            counts,
+            level: SimdLevel::detect(),
+        }
+    }
+
+    /// An instance for the tables and its reference for the builder; `None` if no ray can hit it.
+    fn enter(&self, instance: &Instance, id: u32, index: u32) -> Option<(Placed, Ref)> {
+        let (map, entrance) = (&instance.world_from_object, &self.entrances[instance.object as usize]);
+        let object_from_world = instance::invert(map)?;
+        let world = instance::transformed_bounds(map, &entrance.bounds);
+        let usable = !world.is_empty() && world.min.abs().max(world.max.abs()).max_element() < 1e18;
+        let placed = Placed { object_from_world, root: entrance.root, id };
+        usable.then(|| (placed, Ref::new(world.min, world.max, Owner::Instance(index))))
+    }
+}
+
+impl Tables {
+    /// Adds the tables of an object and returns its root.
+    fn append(&mut self, part: Part) -> u32 {
+        let by = Offsets {
+            nodes: self.nodes.len() as u32,
+            blocks: self.blocks.len() as u32,
+            spheres: self.spheres.len() as u32,
+        };
+        self.nodes.extend(part.wide.nodes.into_iter().map(|mut node| {
+            node.children = node.children.map(|child| child.moved(by));
+            node
+        }));
+        self.blocks.extend(part.wide.blocks);
+        self.spheres.extend(part.spheres);
+        assert!(self.nodes.len().max(self.blocks.len()).max(self.spheres.len()) < Child::MAX_INDEX);
+        by.nodes
+    }
+}
