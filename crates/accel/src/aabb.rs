@@ -1,6 +1,6 @@
 //! Axis-aligned boxes.
 
-use glam::Vec3;
+use glam::{Affine3A, BVec3, Vec3};
 
 /// A closed axis-aligned box. A box with `min > max` on some axis is empty.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,5 +38,19 @@ impl Aabb {
     /// Midpoint; meaningless for an empty box.
     pub fn centre(&self) -> Vec3 {
         self.min.midpoint(self.max)
+    }
+
+    /// The box around the transformed box, grown by the rounding of the transform and of its inverse; empty if this is.
+    pub fn transformed(&self, map: &Affine3A) -> Self {
+        if self.is_empty() {
+            return Self::EMPTY;
+        }
+        let corners = (0..8_u32).map(|i| {
+            let high = BVec3::new(i & 1 != 0, i & 2 != 0, i & 4 != 0);
+            map.transform_point3(Vec3::select(high, self.max, self.min))
+        });
+        let exact = corners.fold(Self::EMPTY, |all, p| all.with_point(p));
+        let slack = exact.min.abs().max(exact.max.abs()) * (8.0 * f32::EPSILON);
+        Self { min: exact.min - slack, max: exact.max + slack }
     }
 }

@@ -9,7 +9,7 @@ use crate::{
 };
 use serde::Serialize;
 use std::collections::BTreeMap;
-use sunfleck::{light::Emitter, spectrum::Wavelengths};
+use sunfleck::{light::Emitter, scene::MID_SHUTTER, spectrum::Wavelengths};
 
 /// Lights that are told of one by one; of more, only the number is.
 const LIGHTS_SHOWN: usize = 20;
@@ -59,7 +59,7 @@ impl Info {
             scene: loaded.record(),
             camera: loaded.eye,
             materials,
-            lights: scene.lights().iter().map(light).collect(),
+            lights: scene.world(Wavelengths::Rgb, MID_SHUTTER).lights().map(light).collect(),
             bounds: Bounds { centre: around.centre.to_array(), radius: around.radius },
             warnings: loaded.warnings().collect(),
         }

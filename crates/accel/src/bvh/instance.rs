@@ -1,7 +1,7 @@
 //! Objects placed in the world.
 
-use crate::{Aabb, Ray};
-use glam::{Affine3A, Vec3};
+use crate::Ray;
+use glam::Affine3A;
 
 /// An object of `objects` placed in the world.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,20 +41,4 @@ pub(super) fn invert(map: &Affine3A) -> Option<Affine3A> {
     }
     let inverse = map.inverse();
     inverse.is_finite().then_some(inverse)
-}
-
-/// The box around a transformed box, grown by the rounding of the transform and of its inverse.
-pub(super) fn transformed_bounds(map: &Affine3A, bounds: &Aabb) -> Aabb {
-    let corners = (0..8_u32).map(|i| {
-        let pick = |axis: u32, lo: f32, hi: f32| if i >> axis & 1 == 0 { lo } else { hi };
-        let corner = Vec3::new(
-            pick(0, bounds.min.x, bounds.max.x),
-            pick(1, bounds.min.y, bounds.max.y),
-            pick(2, bounds.min.z, bounds.max.z),
-        );
-        map.transform_point3(corner)
-    });
-    let exact = corners.fold(Aabb::EMPTY, |all, p| all.with_point(p));
-    let slack = exact.min.abs().max(exact.max.abs()) * (8.0 * f32::EPSILON);
-    Aabb { min: exact.min - slack, max: exact.max + slack }
 }

@@ -88,7 +88,7 @@ impl Objects {
     fn enter(&self, instance: &Instance, id: u32, index: u32) -> Option<(Placed, Ref)> {
         let (map, entrance) = (&instance.world_from_object, &self.entrances[instance.object as usize]);
         let object_from_world = instance::invert(map)?;
-        let world = instance::transformed_bounds(map, &entrance.bounds);
+        let world = entrance.bounds.transformed(map);
         let usable = !world.is_empty() && world.min.abs().max(world.max.abs()).max_element() < 1e18;
         let placed = Placed { object_from_world, root: entrance.root, id };
         usable.then(|| (placed, Ref::new(world.min, world.max, Owner::Instance(index))))

@@ -12,6 +12,9 @@ pub(crate) struct SceneRecord {
     triangles: usize,
     spheres: usize,
     instances: usize,
+    /// Instances that move while the shutter is open.
+    moving_instances: usize,
+    moving_camera: bool,
     materials: usize,
     textures: usize,
     lights: usize,
@@ -54,6 +57,8 @@ impl Loaded {
             triangles: c.triangles,
             spheres: c.spheres,
             instances: c.instances,
+            moving_instances: c.moving_instances,
+            moving_camera: c.moving_camera,
             materials: c.materials,
             textures: c.textures,
             lights: c.lights,
@@ -72,6 +77,13 @@ impl Loaded {
             (c.lights, "light", "lights"),
         ];
         let words = |(n, one, many): (usize, &str, &str)| (n > 0).then(|| things(n as u64, one, many));
-        all.into_iter().filter_map(words).collect::<Vec<_>>().join(", ")
+        let mut said: Vec<String> = all.into_iter().filter_map(words).collect();
+        if c.moving_instances > 0 {
+            said.push(format!("{} of the instances moving", c.moving_instances));
+        }
+        if c.moving_camera {
+            said.push("a moving camera".to_owned());
+        }
+        said.join(", ")
     }
 }

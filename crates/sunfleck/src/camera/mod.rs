@@ -38,6 +38,10 @@ pub trait Project {
     fn ray(&self, raster: Vec2, u_lens: Vec2) -> CameraRay;
     /// Connects `from` to the lens point of `u_lens`; `None` if `from` is behind the camera.
     fn sample_wi(&self, from: Vec3, u_lens: Vec2) -> Option<CameraSample>;
+    /// The camera at `time` on the way from this one (0) to `to` (1); `None` if there is no way, as between mirror images.
+    fn between(&self, to: &Self, time: f32) -> Option<Self>
+    where
+        Self: Sized;
 }
 
 /// Declares the closed set of cameras and forwards every [`Project`] method to them.
@@ -55,6 +59,13 @@ macro_rules! cameras {
             #[inline]
             fn sample_wi(&self, from: Vec3, u_lens: Vec2) -> Option<CameraSample> {
                 match self { $(Self::$name(c) => c.sample_wi(from, u_lens)),* }
+            }
+            fn between(&self, to: &Self, time: f32) -> Option<Self> {
+                match (self, to) {
+                    $((Self::$name(c), Self::$name(to)) => c.between(to, time).map(Self::$name),)*
+                    #[allow(unreachable_patterns, reason = "with one model there are no others")]
+                    _ => None,
+                }
             }
         }
     };

@@ -1,7 +1,7 @@
 //! A pinhole, or a thin lens when it has an aperture.
 use super::{CameraRay, CameraSample, Project};
-use crate::math::{Ray, warp::square_to_disk};
-use glam::{Vec2, Vec3};
+use crate::math::{Motion, Ray, warp::square_to_disk};
+use glam::{Affine3A, Mat3, Vec2, Vec3};
 
 /// Position and orientation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,6 +98,9 @@ impl Perspective {
     pub fn position(&self) -> Vec3 {
         self.position
     }
+    fn world_from_camera(&self) -> Affine3A {
+        Affine3A::from_mat3_translation(Mat3::from_cols(self.right, self.up, self.forward), self.position)
+    }
     fn lens_offset(&self, u_lens: Vec2) -> Vec3 {
         if self.lens_radius == 0.0 {
             return Vec3::ZERO;
@@ -136,5 +139,19 @@ impl Project for Perspective {
         let focus = (lens - wi * (self.focus_distance / cos)) / self.focus_distance;
         let raster = Vec2::new(0.5 + focus.dot(self.right) / self.size.x, 0.5 - focus.dot(self.up) / self.size.y);
         Some(CameraSample { p, wi, raster, importance: 1.0 / (self.solid_angle(cos) * to.length_squared()) })
+    }
+    /// The eye moves along a straight line and turns at constant speed; picture and lens change linearly.
+    fn between(&self, to: &Self, time: f32) -> Option<Self> {
+        let m = Motion::new(&self.world_from_camera(), &to.world_from_camera())?.at(time);
+        let lerp = |a: f32, b: f32| a + time * (b - a);
+        Some(Self {
+            position: m.translation.into(),
+            right: m.matrix3.x_axis.into(),
+            up: m.matrix3.y_axis.into(),
+            forward: m.matrix3.z_axis.into(),
+            size: self.size.lerp(to.size, time),
+            lens_radius: lerp(self.lens_radius, to.lens_radius),
+            focus_distance: lerp(self.focus_distance, to.focus_distance),
+        })
     }
 }

@@ -11,9 +11,9 @@ pub struct LightTable {
 
 impl LightTable {
     /// Weighs each light by the sum of its power over the channels.
-    pub fn new(lights: &[Light], around: &Surroundings) -> Self {
-        let infinite = lights.iter().zip(0..).filter(|(l, _)| l.is_infinite()).map(|(_, i)| LightId(i)).collect();
-        Self { by_power: Discrete::new(lights.iter().map(|l| l.power(around).element_sum())), infinite }
+    pub fn new<'a>(lights: impl Iterator<Item = &'a Light> + Clone, around: &Surroundings) -> Self {
+        let infinite = lights.clone().zip(0..).filter(|(l, _)| l.is_infinite()).map(|(_, i)| LightId(i)).collect();
+        Self { by_power: Discrete::new(lights.map(|l| l.power(around).element_sum())), infinite }
     }
     /// A light, its discrete probability, and a fresh uniform number. `None` if there is no light.
     #[inline]

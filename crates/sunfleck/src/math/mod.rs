@@ -3,6 +3,7 @@
 //! Everything above (shapes, lights, scattering) is written in these terms; nothing here knows of light.
 mod discrete;
 mod frame;
+mod motion;
 mod offset;
 pub mod warp;
 
@@ -10,4 +11,5 @@ pub use accel::Ray;
 pub use discrete::{Discrete, Discrete2d};
 pub use frame::{Frame, Local};
 pub use glam::{Affine3A, Vec2, Vec3};
+pub use motion::Motion;
 pub use offset::offset_origin;

@@ -1,14 +1,20 @@
 //! Putting a scene together, and checking it once so that passes need not.
-use super::{MaterialId, ObjectId, Placement, Scene, Surface, TextureId};
+use super::{
+    MaterialId, ObjectId, Scene, Surface, TextureId,
+    moment::{Moment, Placement, freeze, hierarchies},
+    moving::{Emitters, Geometry, Moving, Place, Places},
+};
 use crate::{
     bsdf::Material,
-    camera::{Camera, Perspective, View},
-    light::{AreaLight, Light, LightId, LightTable, Sides, Surroundings},
-    shape::{Parallelogram, Shape},
+    camera::{Camera, Perspective, Project, View},
+    light::{Light, Sides, Surroundings},
+    math::Motion,
+    shape::Shape,
     spectrum::{Rgb, Wavelengths},
     texture::Texture,
 };
-use glam::{Affine3A, Mat3A, Vec3};
+use glam::{Affine3A, Vec3};
+use std::sync::Arc;
 
 /// A surface to add.
 #[derive(Clone, Debug)]
@@ -40,6 +46,15 @@ pub enum SceneError {
         /// Which object.
         object: u32,
     },
+    /// A movement that would have to flatten the object on the way.
+    #[error("object {object} cannot move: one of its two placements has no inverse, or is a mirror image of the other")]
+    Motion {
+        /// Which object.
+        object: u32,
+    },
+    /// A movement of the camera that would have to turn it inside out on the way.
+    #[error("the camera cannot move: its two views are of different kinds, or one is a mirror image of the other")]
+    CameraMotion,
 }
 
 /// Collects a scene. Handles are given out in order and checked by [`SceneBuilder::build`].
@@ -49,10 +64,21 @@ pub struct SceneBuilder {
     materials: Vec<Material>,
     surfaces: Vec<SurfaceDef>,
     objects: Vec<Vec<SurfaceDef>>,
-    instances: Vec<(ObjectId, Affine3A)>,
+    instances: Vec<Instance>,
     lights: Vec<Light>,
     camera: Option<Camera>,
+    /// Where the camera goes, if it moves.
+    camera_to: Option<Camera>,
     quality: Quality,
+}
+
+/// An object's placements as the shutter opens and as it closes.
+#[derive(Clone, Copy, Debug)]
+struct Instance {
+    object: ObjectId,
+    from: Affine3A,
+    /// If it moves.
+    to: Option<Affine3A>,
 }
 
 /// How much time the ray index may take to build.
@@ -99,7 +125,12 @@ impl SceneBuilder {
     }
     /// Places an object in the world.
     pub fn place(&mut self, object: ObjectId, world_from_object: Affine3A) {
-        self.instances.push((object, world_from_object));
+        self.instances.push(Instance { object, from: world_from_object, to: None });
+    }
+    /// Places an object that moves while the shutter is open, as [`Motion`] does between the two maps; emitting surfaces
+    /// move with it. Take apart what moves for longer than the shutter is open, or turns further, with [`Motion::at`].
+    pub fn place_moving(&mut self, object: ObjectId, from: Affine3A, to: Affine3A) {
+        self.instances.push(Instance { object, from, to: (from != to).then_some(to) });
     }
     /// Adds a light that is not a surface.
     pub fn light(&mut self, l: impl Into<Light>) {
@@ -107,7 +138,11 @@ impl SceneBuilder {
     }
     /// Sets the eye.
     pub fn camera(&mut self, c: impl Into<Camera>) {
-        self.camera = Some(c.into());
+        (self.camera, self.camera_to) = (Some(c.into()), None);
+    }
+    /// Sets an eye that moves while the shutter is open, from one view to another of the same kind.
+    pub fn camera_moving(&mut self, from: impl Into<Camera>, to: impl Into<Camera>) {
+        (self.camera, self.camera_to) = (Some(from.into()), Some(to.into()));
     }
     /// Sets the effort for the ray index.
     pub fn quality(&mut self, q: Quality) {
@@ -121,34 +156,31 @@ impl SceneBuilder {
     /// A handle that names nothing, or a light that cannot be placed.
     pub fn build(mut self) -> Result<Scene, SceneError> {
         self.check()?;
-        self.flatten_emitting_instances()?;
+        let (places, emitters) = self.arrange()?;
         let camera = self.camera.take().unwrap_or_else(default_camera);
+        if self.camera_to.as_ref().is_some_and(|to| camera.between(to, 0.5).is_none()) {
+            return Err(SceneError::CameraMotion);
+        }
         let mut lights = std::mem::take(&mut self.lights);
-        let surfaces: Vec<Surface> =
-            std::mem::take(&mut self.surfaces).into_iter().map(|s| freeze(s, &mut lights)).collect();
-        let objects: Vec<Vec<Surface>> = std::mem::take(&mut self.objects)
-            .into_iter()
-            .map(|o| o.into_iter().filter(|s| s.emission.is_none()).map(|s| freeze(s, &mut lights)).collect())
-            .collect();
-        let placements: Vec<Placement> = self.instances.iter().map(|&(o, m)| placement(o, m)).collect();
-        let bvh = build_index(&surfaces, &objects, &placements, self.quality);
-        let (centre, radius) = bounding_sphere(&bvh);
-        let around = Surroundings { centre, radius, lambda: Wavelengths::Rgb };
-        let light_table = LightTable::new(&lights, &around);
-        let Self { textures, materials, .. } = self;
-        Ok(Scene {
-            textures,
-            materials,
-            surfaces,
-            objects,
-            placements,
-            lights,
-            light_table,
-            camera,
-            bvh,
-            centre,
-            radius,
-        })
+        let mut group = |g: Vec<SurfaceDef>| g.into_iter().map(|s| freeze(s, 0, &mut lights)).collect::<Vec<Surface>>();
+        let surfaces = group(std::mem::take(&mut self.surfaces));
+        let dark = |o: Vec<SurfaceDef>| o.into_iter().filter(|s| s.emission.is_none()).collect();
+        let mut objects: Vec<Vec<Surface>> =
+            std::mem::take(&mut self.objects).into_iter().map(|o| group(dark(o))).collect();
+        let moves = !emitters.is_empty() || places.iter().any(|(_, place)| matches!(place, Place::Moving(_)));
+        let quality = self.quality.into();
+        let (geometry, around) = if moves {
+            let moving = Moving::new(surfaces, &mut objects, places, emitters, quality);
+            let around = surroundings(&moving.swept());
+            (Geometry::Moving(moving), around)
+        } else {
+            let placements = places.iter().map(|(o, place)| Placement::new(*o, place.at(0.0))).collect();
+            let moment = Moment::new(&hierarchies(&objects, quality), surfaces, placements, quality);
+            let around = surroundings(&moment.bvh.bounds());
+            (Geometry::Still(Arc::new(moment.with_lights(&lights, Vec::new(), &around))), around)
+        };
+        let Self { textures, materials, camera_to, .. } = self;
+        Ok(Scene { textures, materials, objects, lights, geometry, camera, camera_to, around })
     }
 
     fn check(&self) -> Result<(), SceneError> {
@@ -161,83 +193,55 @@ impl SceneBuilder {
         for t in self.materials.iter().flat_map(Material::textures) {
             check("texture", t.0, self.textures.len())?;
         }
-        self.instances.iter().try_for_each(|(o, _)| check("object", o.0, self.objects.len()))
+        self.instances.iter().try_for_each(|i| check("object", i.object.0, self.objects.len()))
     }
 
-    /// Emitting surfaces of objects are copied into the world at each placement, so that every light has one place.
-    fn flatten_emitting_instances(&mut self) -> Result<(), SceneError> {
-        for (object, m) in &self.instances {
-            for s in self.objects[object.0 as usize].iter().filter(|s| s.emission.is_some()) {
-                let shape = s.shape.transformed(m).ok_or(SceneError::StretchedLight { object: object.0 })?;
-                self.surfaces.push(SurfaceDef { shape, ..s.clone() });
+    /// Where objects are, and the emitting surfaces that move. Emitting surfaces of objects that stand still are copied
+    /// into the world at each placement, so that every light has one place.
+    fn arrange(&mut self) -> Result<(Places, Emitters), SceneError> {
+        let (mut places, mut emitters) = (Vec::new(), Vec::new());
+        for &Instance { object, from, to } in &self.instances {
+            let place = match to {
+                None => Place::Still(from),
+                Some(to) => Place::Moving(Motion::new(&from, &to).ok_or(SceneError::Motion { object: object.0 })?),
+            };
+            let (emitting, dark): (Vec<_>, Vec<_>) =
+                self.objects[object.0 as usize].iter().partition(|s| s.emission.is_some());
+            for s in emitting {
+                let stretched = || SceneError::StretchedLight { object: object.0 };
+                let shape = s.shape.transformed(&from).ok_or_else(stretched)?;
+                match place {
+                    Place::Still(_) => self.surfaces.push(SurfaceDef { shape, ..s.clone() }),
+                    Place::Moving(motion) => {
+                        s.shape.transformed(&motion.at(1.0)).ok_or_else(stretched)?;
+                        emitters.push((s.clone(), motion));
+                    }
+                }
+            }
+            // An object with nothing left needs no placing; one that moves is kept to be counted.
+            if !dark.is_empty() || to.is_some() {
+                places.push((object, place));
             }
         }
-        // What does not emit stays behind; an object with nothing left needs no placing.
-        let objects = &self.objects;
-        self.instances.retain(|(o, _)| objects[o.0 as usize].iter().any(|s| s.emission.is_none()));
-        Ok(())
+        Ok((places, emitters))
     }
 }
 
-fn freeze(s: SurfaceDef, lights: &mut Vec<Light>) -> Surface {
-    let light = s.emission.map(|(radiance, sides)| {
-        lights.push(Light::Area(AreaLight { shape: s.shape.clone(), radiance, sides }));
-        LightId(lights.len() as u32 - 1)
-    });
-    Surface { shape: s.shape, material: s.material, light }
-}
-
-fn placement(object: ObjectId, world_from_object: Affine3A) -> Placement {
-    // The inverse transpose keeps the outer side outside under mirroring too: n·(x − p) > 0 maps to itself.
-    let normal_from_object: Mat3A = world_from_object.matrix3.inverse().transpose();
-    Placement { object, world_from_object, object_from_world: world_from_object.inverse(), normal_from_object }
-}
-
-/// Corners of the parallelograms of a group, which have no vertex array of their own to lend to the index.
-fn corners(group: &[Surface]) -> Vec<[Vec3; 4]> {
-    group.iter().map(|s| if let Shape::Parallelogram(q) = &s.shape { q.corners() } else { [Vec3::ZERO; 4] }).collect()
-}
-
-fn geometry<'a>(group: &'a [Surface], corners: &'a [[Vec3; 4]]) -> Vec<accel::Geometry<'a>> {
-    let one = |(s, c): (&'a Surface, &'a [Vec3; 4])| match &s.shape {
-        Shape::Mesh(m) => accel::Geometry::Triangles { positions: m.positions(), indices: m.indices() },
-        Shape::Sphere(s) => accel::Geometry::Sphere { centre: s.centre, radius: s.radius },
-        Shape::Parallelogram(_) => accel::Geometry::Triangles { positions: c, indices: &Parallelogram::TRIANGLES },
-    };
-    group.iter().zip(corners).map(one).collect()
-}
-
-fn build_index(
-    surfaces: &[Surface],
-    objects: &[Vec<Surface>],
-    placements: &[Placement],
-    quality: Quality,
-) -> accel::Bvh {
-    let world_corners = corners(surfaces);
-    let world = geometry(surfaces, &world_corners);
-    let object_corners: Vec<_> = objects.iter().map(|o| corners(o)).collect();
-    let object_geometry: Vec<_> = objects.iter().zip(&object_corners).map(|(o, c)| geometry(o, c)).collect();
-    let object_slices: Vec<&[accel::Geometry]> = object_geometry.iter().map(Vec::as_slice).collect();
-    let instances: Vec<_> = placements
-        .iter()
-        .map(|p| accel::Instance { object: p.object.0, world_from_object: p.world_from_object })
-        .collect();
-    let quality = match quality {
-        Quality::Default => accel::Quality::Default,
-        Quality::High => accel::Quality::High,
-    };
-    accel::Bvh::build(&world, &object_slices, &instances, quality)
+impl From<Quality> for accel::Quality {
+    fn from(q: Quality) -> Self {
+        match q {
+            Quality::Default => Self::Default,
+            Quality::High => Self::High,
+        }
+    }
 }
 
 /// A sphere around all geometry; a unit one around the origin when there is none.
-fn bounding_sphere(bvh: &accel::Bvh) -> (Vec3, f32) {
-    let b = bvh.bounds();
+fn surroundings(b: &accel::Aabb) -> Surroundings {
     let radius = 0.5 * (b.max - b.min).length();
-    if radius.is_finite() && radius > 0.0 && b.min.cmple(b.max).all() {
-        (0.5 * (b.min + b.max), radius)
-    } else {
-        (Vec3::ZERO, 1.0)
-    }
+    let usable = radius.is_finite() && radius > 0.0 && !b.is_empty();
+    let (centre, radius) = if usable { (b.centre(), radius) } else { (Vec3::ZERO, 1.0) };
+    Surroundings { centre, radius, lambda: Wavelengths::Rgb }
 }
 
 fn default_camera() -> Camera {

@@ -3,6 +3,8 @@
 //! [`SceneBuilder`] checks and freezes it; [`World`] is the scene as one pass sees it, and what every algorithm asks.
 mod build;
 mod interaction;
+mod moment;
+mod moving;
 mod world;
 
 pub use build::{Quality, SceneBuilder, SceneError, SurfaceDef};
@@ -12,12 +14,13 @@ pub use world::{DirectSample, World};
 use crate::{
     bsdf::Material,
     camera::Camera,
-    light::{Light, LightId, LightTable, Surroundings},
+    light::{Light, LightId, Surroundings},
     shape::Shape,
     spectrum::Wavelengths,
     texture::Texture,
 };
-use glam::{Affine3A, Vec3};
+use glam::Vec3;
+use moving::Geometry;
 
 pub use crate::bsdf::TextureId;
 
@@ -40,16 +43,6 @@ pub struct Surface {
     pub light: Option<LightId>,
 }
 
-/// An object placed in the world.
-#[derive(Clone, Debug)]
-struct Placement {
-    object: ObjectId,
-    world_from_object: Affine3A,
-    object_from_world: Affine3A,
-    /// Takes normals of the object to the world (not unit).
-    normal_from_object: glam::Mat3A,
-}
-
 /// The time at which measurements before the first pass look at the scene.
 pub const MID_SHUTTER: f32 = 0.5;
 
@@ -57,15 +50,14 @@ pub const MID_SHUTTER: f32 = 0.5;
 pub struct Scene {
     textures: Vec<Texture>,
     materials: Vec<Material>,
-    surfaces: Vec<Surface>,
     objects: Vec<Vec<Surface>>,
-    placements: Vec<Placement>,
+    /// Those that stand still.
     lights: Vec<Light>,
-    light_table: LightTable,
+    geometry: Geometry,
     camera: Camera,
-    bvh: accel::Bvh,
-    centre: Vec3,
-    radius: f32,
+    /// Where the camera goes, if it moves.
+    camera_to: Option<Camera>,
+    around: Surroundings,
 }
 
 /// What a scene holds, for summaries.
@@ -77,8 +69,12 @@ pub struct SceneCounts {
     pub triangles: usize,
     /// Spheres among the surfaces.
     pub spheres: usize,
-    /// Placed objects.
+    /// Placed objects, those that move included.
     pub instances: usize,
+    /// Placed objects that move while the shutter is open.
+    pub moving_instances: usize,
+    /// The camera moves while the shutter is open.
+    pub moving_camera: bool,
     /// Material models.
     pub materials: usize,
     /// Textures.
@@ -94,7 +90,7 @@ impl Scene {
     pub fn world(&self, lambda: Wavelengths, time: f32) -> World<'_> {
         World::new(self, lambda, time)
     }
-    /// All lights, by [`LightId`].
+    /// The lights that stand still, by [`LightId`]; [`World::lights`] has all.
     pub fn lights(&self) -> &[Light] {
         &self.lights
     }
@@ -102,26 +98,34 @@ impl Scene {
     pub fn materials(&self) -> &[Material] {
         &self.materials
     }
-    /// Centre and radius of a sphere around all geometry.
+    /// Centre and radius of a sphere around all geometry, wherever it moves.
     pub fn bounding_sphere(&self) -> (Vec3, f32) {
-        (self.centre, self.radius)
+        (self.around.centre, self.around.radius)
     }
     /// What lights may know of the scene.
     pub fn surroundings(&self, lambda: Wavelengths) -> Surroundings {
-        Surroundings { centre: self.centre, radius: self.radius, lambda }
+        Surroundings { lambda, ..self.around }
     }
     /// Numbers for a summary.
     pub fn counts(&self) -> SceneCounts {
-        let all = || self.surfaces.iter().chain(self.objects.iter().flatten());
+        let moment = self.geometry.at(&self.lights, &self.around, MID_SHUTTER);
+        let all = || moment.surfaces.iter().chain(self.objects.iter().flatten());
+        let index = moment.bvh.counts();
+        let (instances, moving_instances) = match &self.geometry {
+            Geometry::Still(_) => (moment.placements.len(), 0),
+            Geometry::Moving(moving) => moving.instances(),
+        };
         SceneCounts {
             surfaces: all().count(),
-            triangles: self.bvh.counts().triangles,
+            triangles: index.triangles,
             spheres: all().filter(|s| matches!(s.shape, Shape::Sphere(_))).count(),
-            instances: self.placements.len(),
+            instances,
+            moving_instances,
+            moving_camera: self.camera_to.is_some(),
             materials: self.materials.len(),
             textures: self.textures.len(),
-            lights: self.lights.len(),
-            bvh_bytes: self.bvh.memory_bytes(),
+            lights: self.lights.len() + moment.moved_lights.len(),
+            bvh_bytes: moment.bvh.memory_bytes(),
         }
     }
 }

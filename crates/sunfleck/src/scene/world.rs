@@ -1,20 +1,26 @@
-//! The scene as one pass sees it: at one set of wavelengths.
-use super::{Interaction, Scene, Surface};
+//! The scene as one pass sees it: at one set of wavelengths and at one time.
+use super::{
+    Interaction, Scene, Surface,
+    moment::{Moment, Placement},
+};
 use crate::{
     bsdf::Lookup,
-    camera::Camera,
+    camera::{Camera, Project},
     light::{Emitter, LiSample, Light, LightId, Surroundings},
     math::Ray,
     shape::SurfacePoint,
     spectrum::{Spectrum, Wavelengths},
 };
 use glam::{Mat3A, Vec2, Vec3};
+use std::{borrow::Cow, sync::Arc};
 
 /// What algorithms ask: rays, lights, materials.
 pub struct World<'s> {
     scene: &'s Scene,
     around: Surroundings,
     time: f32,
+    moment: Arc<Moment>,
+    camera: Cow<'s, Camera>,
 }
 
 /// A light drawn for next-event estimation, with all probabilities multiplied in.
@@ -28,7 +34,12 @@ pub struct DirectSample {
 
 impl<'s> World<'s> {
     pub(super) fn new(scene: &'s Scene, lambda: Wavelengths, time: f32) -> Self {
-        Self { scene, around: scene.surroundings(lambda), time }
+        let around = scene.surroundings(lambda);
+        let camera = match &scene.camera_to {
+            None => Cow::Borrowed(&scene.camera),
+            Some(to) => Cow::Owned(scene.camera.between(to, time).expect("a way that was found when it was built")),
+        };
+        Self { scene, around, time, moment: scene.geometry.at(&scene.lights, &around, time), camera }
     }
     /// The scene behind it.
     pub fn scene(&self) -> &'s Scene {
@@ -45,7 +56,7 @@ impl<'s> World<'s> {
     /// The eye.
     #[inline]
     pub fn camera(&self) -> &Camera {
-        &self.scene.camera
+        &self.camera
     }
     /// What lights may know of the scene.
     pub fn around(&self) -> &Surroundings {
@@ -55,7 +66,7 @@ impl<'s> World<'s> {
     /// The first surface along `ray` (unit direction), materials resolved.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<Interaction> {
-        let hit = self.scene.bvh.closest(ray)?;
+        let hit = self.moment.bvh.closest(ray)?;
         let (surface, point) = self.locate(&hit, ray);
         let at = Lookup { textures: &self.scene.textures, uv: point.uv, lambda: self.around.lambda };
         let bsdf = self.scene.materials[surface.material.0 as usize].resolve(&at);
@@ -63,13 +74,13 @@ impl<'s> World<'s> {
     }
     /// The surface that was hit and the point on it, in world space.
     #[inline]
-    fn locate(&self, hit: &accel::Hit, ray: &Ray) -> (&'s Surface, SurfacePoint) {
+    fn locate(&self, hit: &accel::Hit, ray: &Ray) -> (&Surface, SurfacePoint) {
         let at = ray.o + hit.t * ray.d;
         if hit.instance == accel::Hit::NO_INSTANCE {
-            let surface = &self.scene.surfaces[hit.geometry as usize];
+            let surface = &self.moment.surfaces[hit.geometry as usize];
             return (surface, surface.shape.surface_point(hit, at));
         }
-        let placed = &self.scene.placements[hit.instance as usize];
+        let placed = &self.moment.placements[hit.instance as usize];
         let surface = &self.scene.objects[placed.object.0 as usize][hit.geometry as usize];
         let local = surface.shape.surface_point(hit, placed.object_from_world.transform_point3(at));
         (surface, placed.to_world(&local))
@@ -77,23 +88,28 @@ impl<'s> World<'s> {
     /// Whether something lies within the reach of `ray`.
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.scene.bvh.occluded(ray)
+        self.moment.bvh.occluded(ray)
     }
 
     /// The light with handle `id`.
     #[inline]
-    pub fn light(&self, id: LightId) -> &'s Light {
-        &self.scene.lights[id.0 as usize]
+    pub fn light(&self, id: LightId) -> &Light {
+        let (id, still) = (id.0 as usize, &self.scene.lights);
+        still.get(id).unwrap_or_else(|| &self.moment.moved_lights[id - still.len()])
+    }
+    /// All lights, by [`LightId`].
+    pub fn lights(&self) -> impl Iterator<Item = &Light> {
+        self.scene.lights.iter().chain(&self.moment.moved_lights)
     }
     /// Probability with which light `id` is chosen, for connections and for emission.
     #[inline]
     pub fn light_prob(&self, id: LightId) -> f32 {
-        self.scene.light_table.prob(id)
+        self.moment.light_table.prob(id)
     }
     /// Chooses a light in proportion to power: `(id, probability, fresh uniform number)`. `None` if there is none.
     #[inline]
     pub fn choose_light(&self, u: f32) -> Option<(LightId, f32, f32)> {
-        self.scene.light_table.sample(u)
+        self.moment.light_table.sample(u)
     }
     /// Draws a light and a direction toward it as seen from `from`; unshadowed.
     #[inline]
@@ -118,14 +134,14 @@ impl<'s> World<'s> {
     /// included) with which [`World::sample_direct`] finds it.
     #[inline]
     pub fn escaped(&self, from: Vec3, d: Vec3) -> impl Iterator<Item = (Spectrum, f32)> + '_ {
-        self.scene.light_table.infinite().iter().map(move |&id| {
+        self.moment.light_table.infinite().iter().map(move |&id| {
             let light = self.light(id);
             (light.le_escaped(d, self.around.lambda), light.pdf_li(from, d, None) * self.light_prob(id))
         })
     }
 }
 
-impl super::Placement {
+impl Placement {
     fn to_world(&self, s: &SurfacePoint) -> SurfacePoint {
         let m = &self.world_from_object;
         let abs = |m: &Mat3A| Mat3A::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());

@@ -93,4 +93,8 @@ agreement![
     textures,
     unlike_lights,
     an_eye_in_glass,
+    moving_instance,
+    moving_light,
+    moving_camera,
+    moving_thin_lens,
 ];
