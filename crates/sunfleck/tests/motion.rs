@@ -177,19 +177,21 @@ fn the_bounding_sphere_holds_the_whole_way() {
     let material = grey(&mut b, 0.5);
     let ball = Shape::Sphere(Sphere { centre: Vec3::new(5.0, 0.0, 0.0), radius: 1.0 });
     let ball = b.object(vec![SurfaceDef { shape: ball, material, emission: None }]);
-    // A quarter turn: on the way the ball is farther out than the box around both ends.
-    b.place_moving(ball, Affine3A::IDENTITY, Affine3A::from_rotation_z(std::f32::consts::FRAC_PI_2));
+    // A loop, which leads back to where it began: the box around both ends tells nothing of the way.
+    let turn = 0.99 * std::f32::consts::PI;
+    let there = Affine3A::from_rotation_translation(Quat::from_rotation_z(turn), Vec3::new(10.0, 0.0, 0.0));
+    b.place_moving(ball, Affine3A::IDENTITY, there);
     let lamp = square(&mut b, 1.0, Some(1.0));
-    b.place_moving(lamp, shift(0.0, 0.0), shift(0.0, -9.0));
+    b.place_moving(lamp, shift(5.0, 0.0), shift(5.0, -4.0));
     let scene = b.build().unwrap();
     let (centre, radius) = scene.bounding_sphere();
-    for i in 0..=100 {
-        let angle = f32::to_radians(0.9 * i as f32);
-        for p in [6.0 * Vec3::new(angle.cos(), angle.sin(), 0.0), Vec3::new(0.5, -9.5, 0.0)] {
-            assert!(p.distance(centre) <= radius, "{p} is outside {radius} around {centre}");
-        }
+    let holds = |p: Vec3| assert!(p.distance(centre) <= radius, "{p} is outside {radius} around {centre}");
+    holds(Vec3::new(5.0, -4.5, 0.0));
+    for time in (0..=100).map(|i| i as f32 / 100.0) {
+        let middle = Vec3::new(10.0 * time + 5.0 * (turn * time).cos(), 5.0 * (turn * time).sin(), 0.0);
+        [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y].map(|d| holds(middle + d));
     }
-    assert!(radius < 9.5, "{radius}");
+    assert!(radius < 6.5, "{radius}");
     for time in [0.0, 0.5, 1.0] {
         assert_eq!(scene.world(RGB, time).around().radius, radius);
     }
