@@ -26,6 +26,8 @@ struct Info {
     files: Vec<String>,
     scene: SceneRecord,
     camera: Eye,
+    /// Whether some material parts colours, so that it is rendered by wavelength unless `--color` says otherwise.
+    dispersive: bool,
     /// How many materials there are of each model.
     materials: BTreeMap<&'static str, usize>,
     lights: Vec<LightInfo>,
@@ -58,6 +60,7 @@ impl Info {
             files: args.scene.files.iter().map(|f| f.display().to_string()).collect(),
             scene: loaded.record(),
             camera: loaded.eye,
+            dispersive: scene.is_dispersive(),
             materials,
             lights: scene.world(Wavelengths::Rgb, MID_SHUTTER).lights().map(light).collect(),
             bounds: Bounds { centre: around.centre.to_array(), radius: around.radius },
@@ -76,6 +79,9 @@ impl Info {
             ("memory", format!("{}B of ray index", count(bytes as f64))),
             ("hash", loaded.hash.clone()),
         ];
+        if self.dispersive {
+            rows.push(("color", "spectral: some material parts wavelengths".to_owned()));
+        }
         rows.extend(self.materials.iter().map(|(model, n)| ("material", format!("{n} × {model}"))));
         let light = |l: &LightInfo| ("light", format!("{}, {} W", l.kind, list(l.power)));
         rows.extend(self.lights.iter().take(LIGHTS_SHOWN).map(light));

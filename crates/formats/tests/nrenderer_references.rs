@@ -11,6 +11,7 @@ use std::path::{Path, PathBuf};
 use sunfleck::film::{FilmSpec, Filter};
 use sunfleck::integrator::{Params, find};
 use sunfleck::render::{Budget, Settings, render};
+use sunfleck::spectrum::ColorMode;
 
 /// What is rendered, and what it is compared with.
 struct Case {
@@ -44,7 +45,8 @@ fn against_reference(case: &Case) -> Option<Comparison> {
     case.settings.iter().for_each(|(k, v)| params.set(*k, *v));
     let integrator = find(case.integrator).expect("a known algorithm").build(params).expect("known settings");
     let spec = FilmSpec { width: reference.width, height: reference.height, filter: case.filter };
-    let settings = Settings { spec, seed: 1, budget: Budget { passes: Some(case.passes), time: None } };
+    let settings =
+        Settings { spec, seed: 1, color: ColorMode::Rgb, budget: Budget { passes: Some(case.passes), time: None } };
     let film = render(&world, integrator.as_ref(), &settings, |_, _| ControlFlow::Continue(()));
     let data = film.mean().iter().map(sunfleck::math::Vec3::to_array).collect();
     let picture = RgbImage32 { width: spec.width, height: spec.height, data };

@@ -13,7 +13,7 @@ use sunfleck::{
     sampler::{Domain, Sampler},
     scene::{Interaction, Scene, SceneBuilder, SurfaceDef, World},
     shape::{Parallelogram, Shape, Sphere},
-    spectrum::Spectrum,
+    spectrum::{ColorMode, Spectrum},
     walk::{Arrival, Escape, Limits, Start, Step, Visit, walk},
 };
 
@@ -58,7 +58,7 @@ impl PassRenderer for Prepared<'_> {
             let mut sampler = Sampler::new(pass.seed, Domain::Camera, pass.index, pixel);
             let raster = spec.raster(x, y, sampler.next_2d());
             let ray = world.camera().ray(raster, sampler.next_2d()).ray;
-            let start = Start { ray, beta: Spectrum::ONE, mode: Transport::Radiance };
+            let start = Start { ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
             let mut look = Look { world: &world, settings: self.settings, sum: Spectrum::BLACK, rays: 0 };
             counts.rays += walk(&world, &start, &self.settings.limits, &mut sampler, &mut look) + look.rays;
             look.sum.to_rgb(pass.lambda)
@@ -117,7 +117,7 @@ fn scene() -> Result<Scene, Box<dyn Error>> {
     let [floor, wall, lamp] = [white, blue, black].map(|reflectance| b.material(DiffuseMaterial { reflectance }));
     let mirror = b.material(MirrorMaterial { reflect: white });
     let clear = b.constant(Vec3::ONE);
-    let glass = b.material(DielectricMaterial { eta: 1.5, reflectance: clear, transmittance: clear });
+    let glass = b.material(DielectricMaterial { eta: 1.5.into(), reflectance: clear, transmittance: clear });
     let patch = |p: [f32; 3], u, v| Shape::Parallelogram(Parallelogram::new(p.into(), u, v));
     let ball = |centre: [f32; 3]| Shape::Sphere(Sphere { centre: centre.into(), radius: 0.5 });
     b.add(patch([-3.0, 0.0, -2.0], 6.0 * Vec3::Z, 6.0 * Vec3::X), floor);
@@ -126,7 +126,7 @@ fn scene() -> Result<Scene, Box<dyn Error>> {
     b.add(ball([0.7, 0.5, 0.0]), glass);
     // The outer side is that of u × v, here the lower one: only it emits.
     let shape = patch([-0.5, 3.0, -0.5], Vec3::X, Vec3::Z);
-    b.surface(SurfaceDef { shape, material: lamp, emission: Some((Vec3::splat(12.0), Sides::One)) });
+    b.surface(SurfaceDef { shape, material: lamp, emission: Some((Vec3::splat(12.0).into(), Sides::One)) });
     let view = View { position: Vec3::new(0.0, 1.5, 4.0), look_at: Vec3::new(0.0, 0.6, 0.0), up: Vec3::Y };
     b.camera(Perspective::new(&view, 40.0, 1.5)?);
     Ok(b.build()?)
@@ -150,6 +150,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let settings = Settings {
         spec: FilmSpec { width: 360, height: 240, filter: Filter::Box },
         seed: 0,
+        color: ColorMode::Rgb,
         budget: Budget { passes: Some(16), time: None },
     };
     let film = render(&scene()?, &*integrator, &settings, |_, _| ControlFlow::Continue(()));

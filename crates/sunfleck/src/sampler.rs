@@ -84,6 +84,18 @@ impl Sampler {
     }
 }
 
+/// Two numbers in [0, 1) for a choice that all paths of a pass share. Over passes they walk a (0,2)-sequence, moved as a
+/// whole by the seed: the first number of passes `0..2ᵏ` is a lattice, and the quarters that the second falls into go round
+/// so that both together are even, too.
+pub(crate) fn pass_pair(seed: u64, pass: u64) -> glam::Vec2 {
+    let shift = mix64(seed ^ mix64(0x7c3a_19f5_0b6d_e284));
+    let index = pass as u32;
+    let x = index.reverse_bits().wrapping_add(shift as u32);
+    // Whole quarters, which map the sequence's quarters onto each other.
+    let y = sobol_second(index).wrapping_add((shift >> 32) as u32 & 0xc000_0000);
+    glam::Vec2::new(unit(x), unit(y))
+}
+
 /// 24 random bits as a float in [0, 1).
 #[inline]
 fn unit(x: u32) -> f32 {

@@ -40,6 +40,8 @@ pub struct Arrival<'a> {
     pub delta: bool,
     /// Every scattering so far was from a delta lobe.
     pub all_delta: bool,
+    /// Some boundary parted the wavelengths, and `beta` is that of the hero alone: see [`crate::spectrum`].
+    pub dispersed: bool,
     /// Distance travelled so far.
     pub travelled: f32,
 }
@@ -57,6 +59,8 @@ pub struct Escape<'a> {
     pub pdf: f32,
     /// Its direction came from a delta lobe (or from what started the walk).
     pub delta: bool,
+    /// Some boundary parted the wavelengths, and `beta` is that of the hero alone.
+    pub dispersed: bool,
 }
 
 /// Whether a walk goes on.
@@ -87,6 +91,8 @@ pub struct Start {
     pub beta: Spectrum,
     /// What `beta` is.
     pub mode: Transport,
+    /// Only the hero counts from the beginning: the walk goes on from a dispersed path, which has weighed it.
+    pub dispersed: bool,
 }
 
 /// Walks from `start` until it escapes, is absorbed, the visitor stops it, or the limit is reached.
@@ -97,17 +103,17 @@ pub struct Start {
 ///
 /// Returns the number of rays traced.
 pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler, visitor: &mut impl Visit) -> u64 {
-    let Start { mut ray, mut beta, mode } = *start;
+    let Start { mut ray, mut beta, mode, mut dispersed } = *start;
     let (mut pdf, mut delta, mut all_delta) = (1.0, true, true);
     let (mut eta_scale, mut travelled) = (1.0f32, 0.0);
     let mut scatterings = 0;
     loop {
         let Some(at) = world.intersect(&ray) else {
-            visitor.escape(&Escape { ray: &ray, beta, scatterings, pdf, delta });
+            visitor.escape(&Escape { ray: &ray, beta, scatterings, pdf, delta, dispersed });
             break;
         };
         travelled += at.distance;
-        let arrival = Arrival { at: &at, beta, scatterings, pdf, delta, all_delta, travelled };
+        let arrival = Arrival { at: &at, beta, scatterings, pdf, delta, all_delta, dispersed, travelled };
         let step = visitor.surface(&arrival, sampler);
         if step == Step::Stop || scatterings >= limits.scatterings {
             break;
@@ -116,7 +122,11 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         if step == Step::OnIfDelta && !s.delta {
             break;
         }
-        let next = beta * s.weight;
+        let mut next = beta * s.weight;
+        if s.disperses && !dispersed {
+            next = next.hero_only();
+            dispersed = true;
+        }
         eta_scale *= s.eta * s.eta;
         let survive = match mode {
             Transport::Flux => next.max() / beta.max(),

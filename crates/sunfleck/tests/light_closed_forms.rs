@@ -52,7 +52,7 @@ fn a_rectangle_lights_a_parallel_surface_by_its_form_factor() {
         let mesh = Mesh::new(vec![p0, p1, p2, p3], vec![], vec![], Parallelogram::TRIANGLES.to_vec()).unwrap();
         for shape in [Shape::Parallelogram(q), Shape::Mesh(mesh)] {
             for sides in [Sides::One, Sides::Two] {
-                let light = AreaLight { shape: shape.clone(), radiance: Rgb::splat(3.0), sides }.into();
+                let light = AreaLight { shape: shape.clone(), radiance: Rgb::splat(3.0).into(), sides }.into();
                 let want = PI * 3.0 * corner_form_factor(a, b, c);
                 close("rectangle", irradiance(&light, Vec3::ZERO, Vec3::Z), want);
             }
@@ -64,8 +64,11 @@ fn a_rectangle_lights_a_parallel_surface_by_its_form_factor() {
 fn a_sphere_lights_a_surface_that_faces_it_by_the_square_of_its_sine() {
     let centre = Vec3::new(1.0, -2.0, 2.0);
     for radius in [0.01, 1.0, 2.9, 2.9999] {
-        let light =
-            AreaLight { shape: Shape::Sphere(Sphere { centre, radius }), radiance: Rgb::splat(5.0), sides: Sides::One };
+        let light = AreaLight {
+            shape: Shape::Sphere(Sphere { centre, radius }),
+            radiance: Rgb::splat(5.0).into(),
+            sides: Sides::One,
+        };
         close("sphere", irradiance(&light.into(), Vec3::ZERO, centre / 3.0), PI * 5.0 * (radius / 3.0).powi(2));
     }
 }
@@ -74,7 +77,7 @@ fn a_sphere_lights_a_surface_that_faces_it_by_the_square_of_its_sine() {
 fn from_inside_a_two_sided_sphere_every_surface_sees_pi_times_the_radiance() {
     let light = |sides| {
         let shape = Shape::Sphere(Sphere { centre: Vec3::X, radius: 2.0 });
-        Light::from(AreaLight { shape, radiance: Rgb::splat(0.5), sides })
+        Light::from(AreaLight { shape, radiance: Rgb::splat(0.5).into(), sides })
     };
     for p in [Vec3::X, Vec3::ZERO, Vec3::new(1.5, 1.0, 0.3)] {
         close("inside", irradiance(&light(Sides::Two), p, Vec3::Y), PI * 0.5);
@@ -86,7 +89,7 @@ fn from_inside_a_two_sided_sphere_every_surface_sees_pi_times_the_radiance() {
 fn point_and_distant_lights_follow_the_cosine_and_the_inverse_square() {
     let n = Vec3::new(0.0, 0.6, 0.8);
     let p = Vec3::new(1.0, 1.0, 1.0);
-    let point = PointLight { p: p + Vec3::new(0.0, 0.0, 2.5), intensity: Rgb::splat(10.0) }.into();
+    let point = PointLight { p: p + Vec3::new(0.0, 0.0, 2.5), intensity: Rgb::splat(10.0).into() }.into();
     close("point", irradiance(&point, p, n), 10.0 * 0.8 / 6.25);
     let distant = DirectionalLight::new(Vec3::new(0.0, 0.0, -7.0), Rgb::splat(4.0)).unwrap().into();
     close("directional", irradiance(&distant, p, n), 4.0 * 0.8);
@@ -201,7 +204,7 @@ fn a_one_sided_light_sends_nothing_backward() {
     let hit = |n: Vec3| EmitterHit { p: Vec3::new(0.5, 0.5, 1.0), ng: n };
     let below = hit(Vec3::NEG_Z);
     for (sides, backward) in [(Sides::One, false), (Sides::Two, true)] {
-        let light = AreaLight { shape: Shape::Parallelogram(ceiling(1.0, 1.0, 1.0)), radiance: Rgb::ONE, sides };
+        let light = AreaLight { shape: Shape::Parallelogram(ceiling(1.0, 1.0, 1.0)), radiance: Rgb::ONE.into(), sides };
         let up = Vec3::new(0.6, 0.0, 0.8);
         assert_eq!(!light.le(&below, up, Wavelengths::Rgb).is_black(), backward);
         assert_eq!(light.pdf_le(Some(&below), up, &AROUND).1 > 0.0, backward);

@@ -20,7 +20,7 @@ const AROUND: Surroundings = Surroundings { centre: Vec3::ZERO, radius: 3.0, lam
 /// Every kind of light, with the variations that take other branches. All but the infinite ones shine down on the plane
 /// z = 0 from above.
 fn lights() -> Vec<(&'static str, Light)> {
-    let area = |shape: Shape, sides| Light::from(AreaLight { shape, radiance: Rgb::new(2.0, 1.0, 0.5), sides });
+    let area = |shape: Shape, sides| Light::from(AreaLight { shape, radiance: Rgb::new(2.0, 1.0, 0.5).into(), sides });
     let quad = Parallelogram::new(Vec3::new(-0.6, 0.3, 1.0), Vec3::new(0.2, 0.9, 0.3), Vec3::new(1.2, 0.1, 0.0));
     let ball = Sphere { centre: Vec3::new(0.4, 0.2, 1.2), radius: 0.7 };
     let vertices = vec![quad.p(), quad.p() + quad.v(), quad.p() + quad.u(), Vec3::new(0.9, -0.5, 1.6)];
@@ -36,7 +36,7 @@ fn lights() -> Vec<(&'static str, Light)> {
         ("sphere, two sides", area(Shape::Sphere(ball), Sides::Two)),
         ("mesh, one side", area(Shape::Mesh(mesh.clone()), Sides::One)),
         ("mesh, two sides", area(Shape::Mesh(mesh), Sides::Two)),
-        ("point", PointLight { p: Vec3::new(0.5, -0.2, 1.0), intensity: Rgb::new(1.0, 2.0, 3.0) }.into()),
+        ("point", PointLight { p: Vec3::new(0.5, -0.2, 1.0), intensity: Rgb::new(1.0, 2.0, 3.0).into() }.into()),
         ("spot, soft", spot([0.3, 0.8])),
         ("spot, sharp", spot([0.5, 0.5])),
         ("spot, all rim", spot([0.0, 1.0])),
@@ -83,7 +83,7 @@ fn scene_of(light: &Light) -> Scene {
     let material = b.material(DiffuseMaterial { reflectance: grey });
     match light {
         Light::Area(a) => {
-            let emission = Some((a.radiance, a.sides));
+            let emission = Some((a.radiance.clone(), a.sides));
             b.surface(SurfaceDef { shape: a.shape.clone(), material, emission });
         }
         other => b.light(other.clone()),

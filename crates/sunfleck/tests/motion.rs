@@ -30,7 +30,7 @@ fn square(b: &mut SceneBuilder, side: f32, radiance: Option<f32>) -> ObjectId {
     let material = grey(b, 0.0);
     let corner = Vec3::new(-0.5 * side, -0.5 * side, 0.0);
     let shape = Shape::Parallelogram(Parallelogram::new(corner, side * Vec3::X, side * Vec3::Y));
-    b.object(vec![SurfaceDef { shape, material, emission: radiance.map(|l| (Rgb::splat(l), Sides::One)) }])
+    b.object(vec![SurfaceDef { shape, material, emission: radiance.map(|l| (Rgb::splat(l).into(), Sides::One)) }])
 }
 
 fn eye(x: f32) -> Perspective {
@@ -231,7 +231,7 @@ fn motion_without_a_way_is_refused_with_the_object_named() {
         let mut b = SceneBuilder::new();
         let material = grey(&mut b, 0.5);
         let bulb = Shape::Sphere(Sphere { centre: Vec3::ZERO, radius: 1.0 });
-        let emission = Some((Rgb::ONE, Sides::One));
+        let emission = Some((Rgb::ONE.into(), Sides::One));
         let object = b.object(vec![SurfaceDef { shape: bulb, material, emission }]);
         place(&mut b, object);
         b.build().err().map(|e| e.to_string()).unwrap_or_default()

@@ -144,7 +144,7 @@ fn a_placed_sphere_is_the_ellipsoid_of_its_matrix_with_normals_outward() {
 }
 
 fn emitter(shape: Shape, material: MaterialId) -> SurfaceDef {
-    SurfaceDef { shape, material, emission: Some((Rgb::new(3.0, 2.0, 1.0), Sides::One)) }
+    SurfaceDef { shape, material, emission: Some((Rgb::new(3.0, 2.0, 1.0).into(), Sides::One)) }
 }
 
 #[test]
@@ -167,7 +167,7 @@ fn emitting_objects_become_lights_wherever_they_are_placed() {
             assert_eq!(!le.is_black(), at.ng.dot(ray.d) < 0.0, "{name}");
             if local.z < -2.0 * local.truncate().length() {
                 front += 1;
-                assert_eq!(le, Spectrum::from_rgb(Rgb::new(3.0, 2.0, 1.0), RGB), "{name}");
+                assert_eq!(le, Spectrum::emission(Rgb::new(3.0, 2.0, 1.0), RGB), "{name}");
             } else if local.z > 2.0 * local.truncate().length() {
                 back += 1;
                 assert!(le.is_black(), "{name}");
@@ -239,7 +239,7 @@ fn lights_are_chosen_by_power_and_never_when_dark() {
     let material = grey(&mut b);
     let floor = Parallelogram::new(Vec3::new(-1.0, 0.0, -1.0), 2.0 * Vec3::Z, 2.0 * Vec3::X);
     b.add(Shape::Parallelogram(floor), material);
-    let point = |i: f32| PointLight { p: Vec3::Y, intensity: Rgb::splat(i) };
+    let point = |i: f32| PointLight { p: Vec3::Y, intensity: Rgb::splat(i).into() };
     b.light(point(1.0));
     b.light(point(0.0));
     b.light(point(3.0));
@@ -268,11 +268,11 @@ fn lights_are_chosen_by_power_and_never_when_dark() {
 fn what_leaves_the_scene_is_found_with_the_density_of_its_connections() {
     let mut b = SceneBuilder::new();
     b.light(EnvironmentLight::constant(Rgb::new(1.0, 2.0, 3.0)));
-    b.light(PointLight { p: Vec3::Y, intensity: Rgb::splat(10.0) });
+    b.light(PointLight { p: Vec3::Y, intensity: Rgb::splat(10.0).into() });
     let scene = b.build().unwrap();
     let world = scene.world(RGB, 0.0);
     let (mut matched, mut escaped) = (0, world.escaped(Vec3::ZERO, Vec3::X));
-    assert_eq!(escaped.next().unwrap().0, Spectrum::from_rgb(Rgb::new(1.0, 2.0, 3.0), RGB));
+    assert_eq!(escaped.next().unwrap().0, Spectrum::emission(Rgb::new(1.0, 2.0, 3.0), RGB));
     assert!(escaped.next().is_none(), "no ray meets a point light");
     for i in 0..100 {
         let s = &mut sampler(i);

@@ -210,7 +210,7 @@ fn lit(light: Shape, floor: Shape) -> Scene {
     let grey = b.constant(Rgb::splat(0.5));
     let material = b.material(DiffuseMaterial { reflectance: grey });
     b.add(floor, material);
-    b.surface(SurfaceDef { shape: light, material, emission: Some((Rgb::ONE, Sides::Two)) });
+    b.surface(SurfaceDef { shape: light, material, emission: Some((Rgb::ONE.into(), Sides::Two)) });
     b.build().unwrap()
 }
 

@@ -1,7 +1,7 @@
 //! Size of the picture, and how a pixel sees it.
 use super::values::pixels;
 use clap::{Args, ValueEnum};
-use sunfleck::film::Filter;
+use sunfleck::{film::Filter, scene::Scene, spectrum::ColorMode};
 
 /// Size of the picture, and how a pixel sees it.
 #[derive(Clone, Debug, Args)]
@@ -16,6 +16,31 @@ pub(crate) struct PictureArgs {
     /// How a pixel sees the picture's plane [default: box, `nrenderer` with --compat nrenderer]
     #[arg(long, value_name = "FILTER")]
     pub(crate) filter: Option<FilterArg>,
+    /// What light is carried as
+    #[arg(long, value_name = "MODE", default_value = "auto")]
+    pub(crate) color: ColorArg,
+}
+
+/// Ways to carry colours.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum ColorArg {
+    /// By wavelength where a material parts colours, else as RGB
+    Auto,
+    /// As red, green and blue
+    Rgb,
+    /// By wavelength: dispersion, measured metals and lamps
+    Spectral,
+}
+
+impl ColorArg {
+    /// The mode for `scene`.
+    pub(crate) fn of(self, scene: &Scene) -> ColorMode {
+        match self {
+            Self::Auto if scene.is_dispersive() => ColorMode::Spectral,
+            Self::Auto | Self::Rgb => ColorMode::Rgb,
+            Self::Spectral => ColorMode::Spectral,
+        }
+    }
 }
 
 /// Pixel filters by name.

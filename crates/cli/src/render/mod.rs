@@ -38,6 +38,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let settings = Settings {
         spec: film_spec(&args.picture, &loaded.defaults)?,
         seed: args.budget.seed,
+        color: args.picture.color.of(&loaded.scene),
         budget: budget(&args.budget, &habits, algorithm.samples_per_pass()),
     };
     let interrupt = Interrupt::listen().map_err(Failure::Work)?;

@@ -41,6 +41,8 @@ pub(super) struct Record<'a> {
     seed: u64,
     width: u32,
     height: u32,
+    /// `rgb` or `spectral`.
+    color: &'static str,
     #[serde(flatten)]
     work: Work,
     stopped_by: StoppedBy,
@@ -108,6 +110,7 @@ impl<'a> Record<'a> {
             seed: job.settings.seed,
             width: spec.width,
             height: spec.height,
+            color: job.settings.color.name(),
             work: Work::new(&done.progress),
             stopped_by: done.stopped_by,
             mean: mean(&done.film),
@@ -133,6 +136,7 @@ pub(super) fn metadata(job: &Job, film: &Film) -> Vec<(String, String)> {
         ("camera", job.loaded.eye.words()),
         ("integrator", job.algorithm.name().to_owned()),
         ("settings", said.join(" ")),
+        ("color", job.settings.color.name().to_owned()),
         ("seed", job.settings.seed.to_string()),
         ("passes", film.passes().to_string()),
     ];

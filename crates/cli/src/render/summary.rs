@@ -4,6 +4,7 @@ use crate::{
     table::aligned,
     words::{count, things, time},
 };
+use sunfleck::spectrum::ColorMode;
 
 /// Scene, eye, algorithm and picture.
 pub(super) fn before(job: &Job, outputs: &Outputs) -> String {
@@ -12,12 +13,13 @@ pub(super) fn before(job: &Job, outputs: &Outputs) -> String {
     let spec = settings.spec;
     let passes = settings.budget.passes.map(|n| things(n, "pass", "passes"));
     let until = passes.into_iter().chain(settings.budget.time.map(time)).collect::<Vec<_>>().join(" or ");
+    let color = if settings.color == ColorMode::Spectral { "spectral, " } else { "" };
     let rows = [
         ("scene", files),
         ("", loaded.words()),
         ("camera", loaded.eye.words()),
         ("integrator", format!("{}, seed {}", algorithm.words(), settings.seed)),
-        ("picture", format!("{}×{}, {until} → {}", spec.width, spec.height, outputs.names())),
+        ("picture", format!("{}×{}, {color}{until} → {}", spec.width, spec.height, outputs.names())),
     ];
     let text = aligned(&rows.map(|(name, value)| [name.to_owned(), value]));
     text + &loaded.eye.stretch(&spec).unwrap_or_default()

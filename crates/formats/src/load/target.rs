@@ -2,10 +2,10 @@
 
 use super::InputHash;
 use crate::diagnostic::{Diagnostic, Sink};
-use glam::Vec3;
 use sunfleck::light::{Light, Sides};
 use sunfleck::scene::{MaterialId, SceneBuilder, SurfaceDef};
 use sunfleck::shape::Shape;
+use sunfleck::spectrum::Illuminant;
 
 /// A scene in the making, with the findings so far.
 pub struct Target {
@@ -41,8 +41,8 @@ impl Target {
     }
 
     /// Adds a surface, emitting if `emission` is not black.
-    pub(crate) fn surface(&mut self, shape: Shape, material: MaterialId, emission: Option<(Vec3, Sides)>) {
-        let emission = emission.filter(|(radiance, _)| *radiance != Vec3::ZERO);
+    pub(crate) fn surface(&mut self, shape: Shape, material: MaterialId, emission: Option<(Illuminant, Sides)>) {
+        let emission = emission.filter(|(radiance, _)| !radiance.is_black());
         self.surfaces += 1;
         self.lights += usize::from(emission.is_some());
         self.builder.surface(SurfaceDef { shape, material, emission });

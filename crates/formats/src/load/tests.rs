@@ -100,7 +100,7 @@ fn tints_and_indices_arrive_in_the_material() {
     assert!(debug.contains("0.9, 0.8, 0.7"), "{debug}");
     let scene = scene(loaded);
     let Material::Dielectric(glass) = &scene.materials()[0] else { panic!("not glass") };
-    assert_eq!(glass.eta, 1.33);
+    assert_eq!(glass.eta, 1.33.into());
 }
 
 const ROOM: &str = "Begin Material\nMaterial W\nProp diffuseColor RGB 0.63 0.065, 0.05\nEnd\n\
@@ -119,7 +119,7 @@ fn shapes_are_moved_and_lights_are_not() {
     // z from 0 (the light) to 1008 (the far end of the sphere).
     assert!((centre.z - 504.0).abs() < 1.0 && radius < 520.0, "{centre} {radius}");
     let area = scene.lights().iter().find_map(|l| if let Light::Area(a) = l { Some(a) } else { None }).unwrap();
-    assert_eq!((area.radiance, area.sides), (Vec3::new(1.0, 2.0, 3.0), Sides::One));
+    assert_eq!((area.radiance.rgb(), area.sides), (Vec3::new(1.0, 2.0, 3.0), Sides::One));
 }
 
 #[test]

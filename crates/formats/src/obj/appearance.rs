@@ -69,7 +69,7 @@ impl<'t> Appearances<'t> {
         if let Some(eta) = refraction(mtl, model) {
             let transmittance = reflectance(mtl.transmission.filter(|t| *t != [0.0; 3]), Vec3::ONE);
             let (white, tint) = (target.builder().constant(Vec3::ONE), target.builder().constant(transmittance));
-            return DielectricMaterial { eta, reflectance: white, transmittance: tint }.into();
+            return DielectricMaterial { eta: eta.into(), reflectance: white, transmittance: tint }.into();
         }
         if mtl.opacity.is_some_and(|d| d < 1.0) {
             target.sink.warn("mtl::opacity", || {

@@ -41,7 +41,7 @@ fn import(tree: &ObjFile, source: &SourceFile, folder: &Path, target: &mut Targe
     for mesh in &tree.meshes {
         let (material, emission) = appearances.of(mesh.material, source, target);
         if let Some(shape) = shape(tree, mesh, source, &mut target.sink) {
-            target.surface(shape, material, emission.map(|e| (e, Sides::One)));
+            target.surface(shape, material, emission.map(|e| (e.into(), Sides::One)));
         }
     }
 }

@@ -82,7 +82,7 @@ fn glass(p: &mut Properties, default_ior: f32) -> DielectricMaterial {
     let key = if p.has("ior") { "ior" } else { "ratio" };
     let eta = p.positive(key).unwrap_or(default_ior);
     let transmittance = p.reflectance("absorbed", Vec3::ONE);
-    DielectricMaterial { eta, reflectance: p.constant(Vec3::ONE), transmittance: p.constant(transmittance) }
+    DielectricMaterial { eta: eta.into(), reflectance: p.constant(Vec3::ONE), transmittance: p.constant(transmittance) }
 }
 
 fn rough_glass(p: &mut Properties) -> Material {

@@ -137,7 +137,7 @@ impl Import<'_> {
         }
         let power = power.max(Vec3::ZERO);
         match light.kind {
-            LightKind::Point => self.target.light(PointLight { p: light.position, intensity: power }),
+            LightKind::Point => self.target.light(PointLight { p: light.position, intensity: power.into() }),
             LightKind::Area => self.area_light(light, power),
             LightKind::Spot => {
                 let spot = SpotLight::new(light.position, light.direction, power, [light.hot_spot, light.fallout]);
@@ -166,6 +166,6 @@ impl Import<'_> {
         }
         let shape = Shape::Parallelogram(Parallelogram::new(light.position, light.u, light.v));
         let black = self.target.builder().material(BlackMaterial);
-        self.target.surface(shape, black, Some((radiance, self.options.sides())));
+        self.target.surface(shape, black, Some((radiance.into(), self.options.sides())));
     }
 }

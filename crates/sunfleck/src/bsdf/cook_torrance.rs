@@ -10,7 +10,7 @@ use crate::{
         Local,
         warp::{square_to_cosine_hemisphere, square_to_cosine_hemisphere_pdf},
     },
-    spectrum::{Rgb, Spectrum},
+    spectrum::Spectrum,
 };
 use glam::Vec2;
 use std::f32::consts::FRAC_1_PI;
@@ -35,11 +35,11 @@ impl Model for CookTorranceMaterial {
         "plastic to metal: `albedo` under a GGX gloss of `roughness` and `f0`; `metallic` 1 gives a coloured metal";
     #[inline]
     fn resolve(&self, at: &Lookup) -> CookTorrance {
-        let unit = |id| at.rgb(id).clamp(Rgb::ZERO, Rgb::ONE);
+        let unit = |id| at.spectrum(id).map(|v| v.clamp(0.0, 1.0));
         let (albedo, metallic) = (unit(self.albedo), self.metallic.clamp(0.0, 1.0));
         CookTorrance {
-            base: Spectrum::from_rgb(albedo * (1.0 - metallic), at.lambda),
-            f0: Spectrum::from_rgb(unit(self.f0).lerp(albedo, metallic), at.lambda),
+            base: albedo * (1.0 - metallic),
+            f0: unit(self.f0) * (1.0 - metallic) + albedo * metallic,
             ggx: Ggx::new(self.roughness * self.roughness),
         }
     }

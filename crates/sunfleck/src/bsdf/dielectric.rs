@@ -1,13 +1,17 @@
 //! Glass, water and other clear things with a polished boundary.
 use super::{BsdfSample, Lookup, Model, Scatter, TextureId, Transport, fresnel};
-use crate::{math::Local, spectrum::Spectrum};
+use crate::{
+    math::Local,
+    spectrum::{Ior, Spectrum},
+};
 use glam::{Vec2, Vec3};
 
 /// A smooth boundary between two clear media. The outside is where the normal points.
 #[derive(Clone, Copy, Debug)]
 pub struct DielectricMaterial {
-    /// Index of refraction of the inside over that of the outside; > 0 (glass in air 1.5, water 1.33).
-    pub eta: f32,
+    /// Index of refraction of the inside over that of the outside; > 0 (glass in air 1.5, water 1.33). One that changes with
+    /// the wavelength parts colours in spectral mode; in RGB mode it is that for yellow light.
+    pub eta: Ior,
     /// Tint in [0, 1] of each reflection; white is physical.
     pub reflectance: TextureId,
     /// Tint in [0, 1] of each passage through the boundary; white is physical. `NRenderer` calls it `absorbed`.
@@ -22,7 +26,7 @@ impl Model for DielectricMaterial {
     #[inline]
     fn resolve(&self, at: &Lookup) -> Dielectric {
         Dielectric {
-            eta: self.eta,
+            eta: self.eta.at(at.lambda),
             reflectance: at.spectrum(self.reflectance),
             transmittance: at.spectrum(self.transmittance),
         }
@@ -30,13 +34,16 @@ impl Model for DielectricMaterial {
     fn textures(&self) -> Vec<TextureId> {
         vec![self.reflectance, self.transmittance]
     }
+    fn is_dispersive(&self) -> bool {
+        self.eta.is_dispersive()
+    }
 }
 
 /// Reflects or refracts by Fresnel's equations for unpolarised light.
 #[derive(Clone, Copy, Debug)]
 pub struct Dielectric {
-    /// η of the side below the surface over η of the side above it.
-    pub eta: f32,
+    /// η of the side below the surface over η of the side above it, by wavelength.
+    pub eta: Spectrum,
     /// Tint of reflections.
     pub reflectance: Spectrum,
     /// Tint of transmissions.
@@ -44,10 +51,24 @@ pub struct Dielectric {
 }
 
 impl Dielectric {
-    /// η of the far side over η of the side that `wo` is on.
+    /// η of the far side over η of the side that `wo` is on, for the hero.
     #[inline]
     pub(super) fn eta_beyond(&self, wo: Local) -> f32 {
-        if wo.cos_theta() > 0.0 { self.eta } else { 1.0 / self.eta }
+        beyond(wo, self.eta.hero())
+    }
+    /// Whether wavelengths are bent differently.
+    #[inline]
+    pub(super) fn is_dispersive(&self) -> bool {
+        self.eta != Spectrum::splat(self.eta.hero())
+    }
+    /// `f` of [`Dielectric::eta_beyond`] at each wavelength; worked out once if all are alike.
+    #[inline]
+    pub(super) fn by_lane(&self, wo: Local, f: impl Fn(f32) -> f32) -> Spectrum {
+        if self.is_dispersive() {
+            self.eta.map(|eta| f(beyond(wo, eta)))
+        } else {
+            Spectrum::splat(f(self.eta_beyond(wo)))
+        }
     }
     /// Probability of following the reflection when the boundary reflects the fraction `fresnel`: in proportion to what
     /// each way carries. 0 when neither carries anything.
@@ -68,6 +89,12 @@ impl Dielectric {
     }
 }
 
+/// η of the far side over η of the side that `wo` is on, from that of below over above.
+#[inline]
+fn beyond(wo: Local, eta: f32) -> f32 {
+    if wo.cos_theta() > 0.0 { eta } else { 1.0 / eta }
+}
+
 impl Scatter for Dielectric {
     #[inline]
     fn eval(&self, _: Local, _: Local, _: Transport) -> Spectrum {
@@ -82,15 +109,23 @@ impl Scatter for Dielectric {
         let eta = self.eta_beyond(wo);
         let boundary = fresnel::dielectric(wo.abs_cos_theta(), eta);
         let fresnel = boundary.reflectance();
-        let prob = self.prob_reflect(fresnel);
+        let disperses = self.is_dispersive();
+        // Every wavelength is reflected alike, if not as much; chosen by the mean, no weight exceeds 4.
+        let all = if disperses {
+            self.by_lane(wo, |eta| fresnel::dielectric(wo.abs_cos_theta(), eta).reflectance())
+        } else {
+            Spectrum::splat(fresnel)
+        };
+        let prob = self.prob_reflect(all.mean());
         if u_lobe < prob {
-            let s = BsdfSample::specular(wo, self.reflectance * (fresnel / prob))?;
+            let s = BsdfSample::specular(wo, self.reflectance * (all / prob))?;
             return Some(BsdfSample { pdf: prob, ..s });
         }
         let weight = self.transmission(eta, mode) * ((1.0 - fresnel) / (1.0 - prob));
+        let weight = if disperses { weight * Spectrum::HERO } else { weight };
         let wi = Local(Vec3::new(-wo.0.x / eta, -wo.0.y / eta, -boundary.cos_t.copysign(wo.0.z)).normalize());
         let carries = wo.cos_theta() * wi.cos_theta() < 0.0 && !weight.is_black();
-        carries.then_some(BsdfSample { wi, weight, pdf: 1.0 - prob, delta: true, eta })
+        carries.then_some(BsdfSample { wi, weight, pdf: 1.0 - prob, delta: true, eta, disperses })
     }
     #[inline]
     fn is_connectible(&self) -> bool {

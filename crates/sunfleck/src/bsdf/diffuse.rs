@@ -54,7 +54,7 @@ impl Scatter for Diffuse {
         let mut wi = square_to_cosine_hemisphere(u);
         let pdf = square_to_cosine_hemisphere_pdf(wi);
         wi.0.z = wi.0.z.copysign(wo.0.z);
-        Some(BsdfSample { wi, weight: self.reflectance, pdf, delta: false, eta: 1.0 })
+        Some(BsdfSample { wi, weight: self.reflectance, pdf, delta: false, eta: 1.0, disperses: false })
     }
     #[inline]
     fn is_connectible(&self) -> bool {

@@ -34,7 +34,7 @@ pub use rough_dielectric::{RoughDielectric, RoughDielectricMaterial};
 
 use crate::{
     math::Local,
-    spectrum::{Rgb, Spectrum, Wavelengths},
+    spectrum::{Spectrum, Wavelengths},
     texture::Texture,
 };
 use glam::Vec2;
@@ -62,6 +62,8 @@ pub struct BsdfSample {
     pub delta: bool,
     /// η of `wi`'s side over η of `wo`'s side; 1 for a reflection. Russian roulette undoes the η² of radiance with it.
     pub eta: f32,
+    /// `wi` is right for the hero alone, and so is `weight`: other wavelengths are bent elsewhere. See [`crate::spectrum`].
+    pub disperses: bool,
 }
 
 impl BsdfSample {
@@ -69,12 +71,13 @@ impl BsdfSample {
     #[inline]
     fn specular(wo: Local, weight: Spectrum) -> Option<Self> {
         let carries = wo.cos_theta() != 0.0 && !weight.is_black();
-        carries.then(|| Self { wi: wo.mirrored(), weight, pdf: 1.0, delta: true, eta: 1.0 })
+        carries.then(|| Self { wi: wo.mirrored(), weight, pdf: 1.0, delta: true, eta: 1.0, disperses: false })
     }
     /// A direction from lobes with a density, on `wo`'s side; `None` if it carries nothing.
     #[inline]
     fn scattered(wi: Local, weight: Spectrum, pdf: f32) -> Option<Self> {
-        (pdf > 0.0 && !weight.is_black()).then_some(Self { wi, weight, pdf, delta: false, eta: 1.0 })
+        let carries = pdf > 0.0 && !weight.is_black();
+        carries.then_some(Self { wi, weight, pdf, delta: false, eta: 1.0, disperses: false })
     }
 }
 
@@ -102,15 +105,10 @@ pub struct Lookup<'s> {
 }
 
 impl Lookup<'_> {
-    /// The colour of texture `id` here.
-    #[inline]
-    pub fn rgb(&self, id: TextureId) -> Rgb {
-        self.textures[id.0 as usize].eval(self.uv)
-    }
     /// The colour of texture `id` here, at the wavelengths of the pass.
     #[inline]
     pub fn spectrum(&self, id: TextureId) -> Spectrum {
-        Spectrum::from_rgb(self.rgb(id), self.lambda)
+        self.textures[id.0 as usize].spectrum(self.uv, self.lambda)
     }
 }
 
@@ -130,6 +128,10 @@ pub trait Model {
     fn resolve(&self, at: &Lookup) -> Self::Closure;
     /// The textures it refers to, so that the builder can check them.
     fn textures(&self) -> Vec<TextureId>;
+    /// Whether it bends each wavelength differently.
+    fn is_dispersive(&self) -> bool {
+        false
+    }
 }
 
 /// Name and purpose of a material model, for `sunfleck list materials` and the manual.
@@ -168,6 +170,10 @@ macro_rules! models {
             /// The textures it refers to.
             pub fn textures(&self) -> Vec<TextureId> {
                 match self { $(Self::$closure(m) => m.textures()),* }
+            }
+            /// Whether it bends each wavelength differently.
+            pub fn is_dispersive(&self) -> bool {
+                match self { $(Self::$closure(m) => m.is_dispersive()),* }
             }
         }
         impl Scatter for Bsdf {

@@ -26,7 +26,7 @@ impl Model for RoughDielectricMaterial {
     #[inline]
     fn resolve(&self, at: &Lookup) -> Bsdf {
         let glass = self.glass.resolve(at);
-        if self.alpha >= Ggx::MIN_ALPHA && self.alpha.min(1.0) * (glass.eta - 1.0).abs() >= 1e-4 {
+        if self.alpha >= Ggx::MIN_ALPHA && self.alpha.min(1.0) * (glass.eta.hero() - 1.0).abs() >= 1e-4 {
             RoughDielectric { glass, ggx: Ggx::new(self.alpha) }.into()
         } else {
             glass.into()
@@ -35,10 +35,16 @@ impl Model for RoughDielectricMaterial {
     fn textures(&self) -> Vec<TextureId> {
         self.glass.textures()
     }
+    fn is_dispersive(&self) -> bool {
+        self.glass.is_dispersive()
+    }
 }
 
 /// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", with visible normals. Transmission uses
 /// the paper's separable masking (eq. 23); reflection the height-correlated one, as the metals here do.
+///
+/// Where wavelengths are bent differently, a direction still carries all of them, each by its own facet: one of the lanes
+/// is drawn to choose the direction, and the density is the mean of the lanes' densities (the balance heuristic).
 #[derive(Clone, Copy, Debug)]
 pub struct RoughDielectric {
     glass: Dielectric,
@@ -56,6 +62,29 @@ struct Passage {
 }
 
 impl RoughDielectric {
+    /// [`Scatter::sample`] where all wavelengths are bent alike.
+    #[inline]
+    fn sample_alike(&self, wo: Local, u_lobe: f32, u: Vec2, mode: Transport) -> Option<BsdfSample> {
+        let up = seen_from(wo, wo);
+        let eta = self.glass.eta_beyond(wo);
+        let m = self.ggx.sample_visible(up, u);
+        let cos = up.dot(m).clamp(0.0, 1.0);
+        let boundary = fresnel::dielectric(cos, eta);
+        let fresnel = boundary.reflectance();
+        let prob = self.glass.prob_reflect(fresnel);
+        if u_lobe < prob {
+            let wi = reflect_up(up, m)?;
+            let weight = self.glass.reflectance * (fresnel / prob * self.ggx.shadowing(up, wi));
+            return BsdfSample::scattered(seen_from(wo, wi), weight, prob * self.ggx.glint(up, wi)?.pdf);
+        }
+        // Snell's law in vectors (Walter et al. 2007, eq. 40).
+        let wi = Local(((cos / eta - boundary.cos_t) * m.0 - up.0 / eta).normalize());
+        let p = self.passage(up, wi, eta)?;
+        let carried = (1.0 - fresnel) / (1.0 - prob) * self.ggx.g1(wi);
+        let weight = self.glass.transmission(eta, mode) * carried;
+        let s = BsdfSample::scattered(seen_from(wo, wi), weight, (1.0 - prob) * p.pdf)?;
+        Some(BsdfSample { eta, ..s })
+    }
     /// The refraction from `up`, above the surface, to `wi`, below it; `None` if no visible facet does that. `eta` is η
     /// below over η above, as `up` sees it.
     #[inline]
@@ -83,52 +112,43 @@ impl RoughDielectric {
 impl Scatter for RoughDielectric {
     #[inline]
     fn eval(&self, wo: Local, wi: Local, mode: Transport) -> Spectrum {
-        let eta = self.glass.eta_beyond(wo);
         let (up, wi) = (seen_from(wo, wo), seen_from(wo, wi));
         if let Some(g) = self.ggx.glint(up, wi) {
-            self.glass.reflectance * (g.f * fresnel::dielectric(g.cos, eta).reflectance())
-        } else if let Some(p) = self.passage(up, wi, eta) {
-            self.glass.transmission(eta, mode) * (p.f * (1.0 - p.fresnel))
-        } else {
-            Spectrum::BLACK
+            let fresnel = self.glass.by_lane(wo, |eta| fresnel::dielectric(g.cos, eta).reflectance());
+            return self.glass.reflectance * (fresnel * g.f);
         }
+        let squeeze = |eta: f32| if mode == Transport::Radiance { 1.0 / (eta * eta) } else { 1.0 };
+        let f = |eta| self.passage(up, wi, eta).map_or(0.0, |p| squeeze(eta) * p.f * (1.0 - p.fresnel));
+        self.glass.transmittance * self.glass.by_lane(wo, f)
     }
     #[inline]
     fn pdf(&self, wo: Local, wi: Local) -> f32 {
-        let eta = self.glass.eta_beyond(wo);
         let (up, wi) = (seen_from(wo, wo), seen_from(wo, wi));
-        if let Some(g) = self.ggx.glint(up, wi) {
-            g.pdf * self.glass.prob_reflect(fresnel::dielectric(g.cos, eta).reflectance())
-        } else if let Some(p) = self.passage(up, wi, eta) {
-            p.pdf * (1.0 - self.glass.prob_reflect(p.fresnel))
+        let prob_reflect = |fresnel| self.glass.prob_reflect(fresnel);
+        let by_lane = if let Some(g) = self.ggx.glint(up, wi) {
+            self.glass.by_lane(wo, |eta| g.pdf * prob_reflect(fresnel::dielectric(g.cos, eta).reflectance()))
         } else {
-            0.0
-        }
+            self.glass
+                .by_lane(wo, |eta| self.passage(up, wi, eta).map_or(0.0, |p| p.pdf * (1.0 - prob_reflect(p.fresnel))))
+        };
+        by_lane.mean()
     }
     #[inline]
     fn sample(&self, wo: Local, u_lobe: f32, u: Vec2, mode: Transport) -> Option<BsdfSample> {
-        let up = seen_from(wo, wo);
-        if up.cos_theta() <= 0.0 {
+        if wo.cos_theta() == 0.0 {
             return None;
         }
-        let eta = self.glass.eta_beyond(wo);
-        let m = self.ggx.sample_visible(up, u);
-        let cos = up.dot(m).clamp(0.0, 1.0);
-        let boundary = fresnel::dielectric(cos, eta);
-        let fresnel = boundary.reflectance();
-        let prob = self.glass.prob_reflect(fresnel);
-        if u_lobe < prob {
-            let wi = reflect_up(up, m)?;
-            let weight = self.glass.reflectance * (fresnel / prob * self.ggx.shadowing(up, wi));
-            return BsdfSample::scattered(seen_from(wo, wi), weight, prob * self.ggx.glint(up, wi)?.pdf);
+        if !self.glass.is_dispersive() {
+            return self.sample_alike(wo, u_lobe, u, mode);
         }
-        // Snell's law in vectors (Walter et al. 2007, eq. 40).
-        let wi = Local(((cos / eta - boundary.cos_t) * m.0 - up.0 / eta).normalize());
-        let p = self.passage(up, wi, eta)?;
-        let carried = (1.0 - fresnel) / (1.0 - prob) * self.ggx.g1(wi);
-        let weight = self.glass.transmission(eta, mode) * carried;
-        let s = BsdfSample::scattered(seen_from(wo, wi), weight, (1.0 - prob) * p.pdf)?;
-        Some(BsdfSample { eta, ..s })
+        let lane = (4.0 * u_lobe) as usize & 3;
+        let eta = Spectrum::splat(self.glass.eta.lanes()[lane]);
+        let alone = Self { glass: Dielectric { eta, ..self.glass }, ggx: self.ggx };
+        let s = alone.sample_alike(wo, (4.0 * u_lobe).fract(), u, mode)?;
+        let pdf = self.pdf(wo, s.wi);
+        let weight = self.eval(wo, s.wi, mode) * (s.wi.abs_cos_theta() / pdf);
+        let eta = if s.eta == 1.0 { 1.0 } else { self.glass.eta_beyond(wo) };
+        Some(BsdfSample { eta, ..BsdfSample::scattered(s.wi, weight, pdf)? })
     }
     #[inline]
     fn is_connectible(&self) -> bool {

@@ -31,6 +31,6 @@ impl EyeRay {
     /// The beginning of a camera walk.
     #[inline]
     pub(super) fn start(&self) -> Start {
-        Start { ray: self.camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance }
+        Start { ray: self.camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false }
     }
 }

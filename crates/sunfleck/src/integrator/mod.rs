@@ -21,7 +21,7 @@ use crate::{
     film::PassImage,
     sampler::{Domain, Sampler},
     scene::Scene,
-    spectrum::Wavelengths,
+    spectrum::{ColorMode, Wavelengths},
 };
 
 /// All that differs between passes.
@@ -43,6 +43,11 @@ impl Pass {
     pub fn new(seed: u64, index: u64) -> Self {
         let mut sampler = Sampler::new(seed, Domain::Pass, 0, index);
         Self { index, seed, lambda: Wavelengths::Rgb, time: sampler.next_1d() }
+    }
+    /// The same pass with what `color` carries in it.
+    #[must_use]
+    pub fn colored(self, color: ColorMode) -> Self {
+        Self { lambda: color.wavelengths(self.seed, self.index), ..self }
     }
 }
 

@@ -27,12 +27,13 @@ use crate::{
     film::{Counts, FilmSpec, PassImage},
     photon::Kernel,
     sampler::Domain,
-    scene::{MID_SHUTTER, Scene},
+    scene::{MID_SHUTTER, Scene, World},
     spectrum::{Spectrum, Wavelengths},
     walk::Limits,
 };
 use eye::Eye;
 use maps::Maps;
+use std::sync::OnceLock;
 
 pub(super) const ENTRY: Entry = Entry {
     name: "photonmap",
@@ -125,34 +126,47 @@ impl Default for PhotonMapper {
 
 impl Integrator for PhotonMapper {
     fn prepare<'s>(&'s self, scene: &'s Scene, _: FilmSpec, seed: u64) -> Box<dyn PassRenderer + 's> {
-        let mut counts = Counts::default();
-        let world = scene.world(Wavelengths::Rgb, MID_SHUTTER);
-        let kept = (!self.reshoot).then(|| Maps::shoot(self, &world, (Domain::Prepare, seed, 0), &mut counts));
-        Box::new(Prepared { scene, settings: self, kept, counts })
+        Box::new(Prepared { scene, settings: self, seed, kept: OnceLock::new() })
     }
 }
 
 struct Prepared<'s> {
     scene: &'s Scene,
     settings: &'s PhotonMapper,
-    /// The photons of all passes, unless each shoots its own.
-    kept: Option<Maps>,
-    /// The work they took, which counts for the first pass.
-    counts: Counts,
+    seed: u64,
+    /// The photons of all passes in RGB, unless each shoots its own, and the work they took. In spectral mode the passes
+    /// carry different wavelengths, so each sends the same paths anew.
+    kept: OnceLock<(Maps, Counts)>,
+}
+
+impl Prepared<'_> {
+    /// The photons of one pass.
+    fn shoot(&self, world: &World, pass: &Pass) -> (Maps, Counts) {
+        let mut counts = Counts::default();
+        (Maps::shoot(self.settings, world, (Domain::Light, pass.seed, pass.index), &mut counts), counts)
+    }
+    /// The photons of all passes that carry `lambda`.
+    fn shoot_once(&self, lambda: Wavelengths) -> (Maps, Counts) {
+        let mut counts = Counts::default();
+        let world = self.scene.world(lambda, MID_SHUTTER);
+        (Maps::shoot(self.settings, &world, (Domain::Prepare, self.seed, 0), &mut counts), counts)
+    }
 }
 
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
         let world = self.scene.world(pass.lambda, pass.time);
         let own;
-        let maps = if let Some(maps) = &self.kept {
+        let maps = if !self.settings.reshoot && pass.lambda == Wavelengths::Rgb {
+            let (maps, counts) = self.kept.get_or_init(|| self.shoot_once(pass.lambda));
             if pass.index == 0 {
-                image.counts += self.counts;
+                image.counts += *counts;
             }
             maps
         } else {
-            own = Maps::shoot(self.settings, &world, (Domain::Light, pass.seed, pass.index), &mut image.counts);
-            &own
+            own = if self.settings.reshoot { self.shoot(&world, pass) } else { self.shoot_once(pass.lambda) };
+            image.counts += own.1;
+            &own.0
         };
         let spec = image.spec();
         let samples = u64::from(self.settings.samples);

@@ -16,7 +16,9 @@ use super::{
 };
 use crate::{
     film::{Counts, FilmSpec, PassImage},
-    photon::{Disc, Keep, Kernel, RadiusMap, Reach, Schedule, Shower, Source, gather_within, pixel_angle, survey},
+    photon::{
+        CameraEnd, Disc, Keep, Kernel, RadiusMap, Reach, Schedule, Shower, Source, gather_within, pixel_angle, survey,
+    },
     sampler::{Domain, Sampler},
     scene::{Scene, World},
     spectrum::Spectrum,
@@ -201,7 +203,7 @@ impl Visit for Look<'_> {
             }
             let radius = self.shrink * self.reach.at(self.angle * a.travelled);
             let disc = Disc { radius, kernel: self.settings.kernel };
-            self.sum += a.beta * gather_within(self.map, a.at, disc, most);
+            self.sum += a.beta * gather_within(self.map, a.at, disc, CameraEnd { most, dispersed: a.dispersed });
         }
         if connect { Step::On } else { Step::OnIfDelta }
     }

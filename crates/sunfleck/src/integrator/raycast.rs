@@ -8,7 +8,7 @@ use crate::{
     light::Light,
     sampler::{Domain, Sampler},
     scene::{Interaction, Scene, World},
-    spectrum::{Rgb, Spectrum},
+    spectrum::{Illuminant, Rgb, Spectrum},
 };
 use glam::{Vec2, Vec3};
 use std::f32::consts::PI;
@@ -28,8 +28,10 @@ pub struct RayCast;
 
 impl Integrator for RayCast {
     fn prepare<'s>(&'s self, scene: &'s Scene, _: FilmSpec, _: u64) -> Box<dyn PassRenderer + 's> {
-        let lamp =
-            scene.lights().iter().find_map(|l| if let Light::Point(p) = l { Some((p.p, p.intensity)) } else { None });
+        let lamp = scene
+            .lights()
+            .iter()
+            .find_map(|l| if let Light::Point(p) = l { Some((p.p, p.intensity.clone())) } else { None });
         Box::new(Prepared { scene, lamp })
     }
 }
@@ -37,7 +39,7 @@ impl Integrator for RayCast {
 struct Prepared<'s> {
     scene: &'s Scene,
     /// Position and intensity; without a point light, a white lamp at the camera's eye shows the shapes.
-    lamp: Option<(Vec3, Rgb)>,
+    lamp: Option<(Vec3, Illuminant)>,
 }
 
 impl PassRenderer for Prepared<'_> {
@@ -62,7 +64,10 @@ impl PassRenderer for Prepared<'_> {
 impl Prepared<'_> {
     /// `(kd·N·L + ks·|V·R|ⁿ)·I`, which is π·f·cos·I for the material models made for it; shadowed, no 1/r².
     fn shade(&self, world: &World, at: &Interaction, eye: Vec3) -> Spectrum {
-        let (lamp, intensity) = self.lamp.unwrap_or((eye, Rgb::ONE));
+        let (lamp, intensity) = match &self.lamp {
+            Some((p, intensity)) => (*p, intensity.at(world.lambda())),
+            None => (eye, Spectrum::emission(Rgb::ONE, world.lambda())),
+        };
         let Some(wi) = (lamp - at.p).try_normalize() else { return Spectrum::BLACK };
         // Mirrors and glass are shaded as white paper.
         let specular = at.sample(0.5, Vec2::splat(0.5), Transport::Radiance).is_some_and(|s| s.delta);
@@ -71,6 +76,6 @@ impl Prepared<'_> {
         if f_cos.is_black() || world.occluded(&at.spawn_to(wi, lamp)) {
             return Spectrum::BLACK;
         }
-        f_cos * Spectrum::from_rgb(intensity, world.lambda()) * PI
+        f_cos * intensity * PI
     }
 }

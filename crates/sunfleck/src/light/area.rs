@@ -3,7 +3,7 @@ use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
 use crate::{
     math::{Frame, warp::square_to_cosine_hemisphere},
     shape::{AreaSample, Shape},
-    spectrum::{Rgb, Spectrum, Wavelengths},
+    spectrum::{Illuminant, Rgb, Spectrum, Wavelengths},
 };
 use glam::{Vec2, Vec3};
 use std::f32::consts::{FRAC_1_PI, PI};
@@ -24,7 +24,7 @@ pub struct AreaLight {
     /// The emitting surface, in world space.
     pub shape: Shape,
     /// Emitted radiance, W/(m²·sr).
-    pub radiance: Rgb,
+    pub radiance: Illuminant,
     /// Sides that emit.
     pub sides: Sides,
 }
@@ -60,7 +60,7 @@ impl Emitter for AreaLight {
     /// π·A·L for one side, twice that for two.
     fn power(&self, _: &Surroundings) -> Rgb {
         let sides = if self.sides == Sides::Two { 2.0 } else { 1.0 };
-        self.radiance * (sides * PI * self.shape.area())
+        self.radiance.rgb() * (sides * PI * self.shape.area())
     }
     #[inline]
     fn sample_li(&self, from: Vec3, u: Vec2, around: &Surroundings) -> Option<LiSample> {
@@ -68,7 +68,7 @@ impl Emitter for AreaLight {
         let wi = (q.p - from).try_normalize()?;
         (self.emission_cos(q.ng, -wi) > 0.0).then(|| LiSample {
             wi,
-            li: Spectrum::from_rgb(self.radiance, around.lambda),
+            li: self.radiance.at(around.lambda),
             pdf,
             delta: false,
             end: LightEnd::Surface(q),
@@ -101,7 +101,7 @@ impl Emitter for AreaLight {
         let cos = w.cos_theta();
         Some(LeSample {
             ray: q.emit(d),
-            le: Spectrum::from_rgb(self.radiance, around.lambda),
+            le: self.radiance.at(around.lambda),
             pdf_area: 1.0 / self.shape.area(),
             pdf_dir: prob * cos * FRAC_1_PI,
             cos,
@@ -115,7 +115,7 @@ impl Emitter for AreaLight {
     }
     #[inline]
     fn le(&self, hit: &EmitterHit, wo: Vec3, lambda: Wavelengths) -> Spectrum {
-        if self.emission_cos(hit.ng, wo) > 0.0 { Spectrum::from_rgb(self.radiance, lambda) } else { Spectrum::BLACK }
+        if self.emission_cos(hit.ng, wo) > 0.0 { self.radiance.at(lambda) } else { Spectrum::BLACK }
     }
     fn le_escaped(&self, _: Vec3, _: Wavelengths) -> Spectrum {
         Spectrum::BLACK

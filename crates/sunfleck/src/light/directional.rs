@@ -1,21 +1,21 @@
 //! Light from infinitely far away in one direction: the sun without its disk.
 use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
-use crate::spectrum::{Rgb, Spectrum};
+use crate::spectrum::{Illuminant, Rgb};
 use glam::{Vec2, Vec3};
 
 /// A distant light.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct DirectionalLight {
     /// Unit direction in which the light travels.
     direction: Vec3,
-    irradiance: Rgb,
+    irradiance: Illuminant,
 }
 
 impl DirectionalLight {
     /// Light that travels along `direction` (of any length) and brings `irradiance` (W/m²) to a surface facing it.
     /// `None` if the direction is zero or not finite.
-    pub fn new(direction: Vec3, irradiance: Rgb) -> Option<Self> {
-        Some(Self { direction: direction.try_normalize()?, irradiance })
+    pub fn new(direction: Vec3, irradiance: impl Into<Illuminant>) -> Option<Self> {
+        Some(Self { direction: direction.try_normalize()?, irradiance: irradiance.into() })
     }
 }
 
@@ -25,18 +25,18 @@ impl Emitter for DirectionalLight {
     }
     /// E·πR².
     fn power(&self, around: &Surroundings) -> Rgb {
-        self.irradiance * around.disk_area()
+        self.irradiance.rgb() * around.disk_area()
     }
     #[inline]
     fn sample_li(&self, _: Vec3, _: Vec2, around: &Surroundings) -> Option<LiSample> {
-        let li = Spectrum::from_rgb(self.irradiance, around.lambda);
+        let li = self.irradiance.at(around.lambda);
         Some(LiSample { wi: -self.direction, li, pdf: 1.0, delta: true, end: LightEnd::Infinite })
     }
     #[inline]
     fn sample_le(&self, u_area: Vec2, _: Vec2, around: &Surroundings) -> Option<LeSample> {
         Some(LeSample {
             ray: around.ray_from_outside(self.direction, u_area),
-            le: Spectrum::from_rgb(self.irradiance, around.lambda),
+            le: self.irradiance.at(around.lambda),
             pdf_area: 1.0 / around.disk_area(),
             pdf_dir: 1.0,
             cos: 1.0,

@@ -2,7 +2,7 @@
 use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings, panorama::Panorama};
 use crate::{
     math::warp::square_to_sphere,
-    spectrum::{Rgb, Spectrum, Wavelengths},
+    spectrum::{Illuminant, Rgb, Spectrum, Wavelengths},
     texture::ImageTexture,
 };
 use glam::{Mat3, Vec2, Vec3};
@@ -12,7 +12,7 @@ use std::f32::consts::PI;
 #[derive(Clone, Debug)]
 pub struct EnvironmentLight {
     /// Radiance, W/(m²·sr); what a panorama is multiplied by.
-    radiance: Rgb,
+    radiance: Illuminant,
     panorama: Option<Box<Panorama>>,
 }
 
@@ -39,8 +39,8 @@ const UNIFORM: f32 = 0.25 / PI;
 
 impl EnvironmentLight {
     /// The same `radiance` (W/(m²·sr)) from everywhere.
-    pub fn constant(radiance: Rgb) -> Self {
-        Self { radiance, panorama: None }
+    pub fn constant(radiance: impl Into<Illuminant>) -> Self {
+        Self { radiance: radiance.into(), panorama: None }
     }
     /// A latitude-longitude `image` of radiance over `scale`: the direction (x, y, z) of the map is found at
     /// `u = (atan2(z, x) + π)/2π` to the right and `acos(y)/π` down, as in NRenderer's forks. `world_from_map` turns those
@@ -48,7 +48,11 @@ impl EnvironmentLight {
     ///
     /// # Errors
     /// A matrix that is not orthogonal, or a negative or non-finite pixel.
-    pub fn panorama(image: ImageTexture, scale: Rgb, world_from_map: Mat3) -> Result<Self, EnvironmentError> {
+    pub fn panorama(
+        image: ImageTexture,
+        scale: impl Into<Illuminant>,
+        world_from_map: Mat3,
+    ) -> Result<Self, EnvironmentError> {
         if !(world_from_map * world_from_map.transpose()).abs_diff_eq(Mat3::IDENTITY, 1e-3) {
             return Err(EnvironmentError::NotARotation(world_from_map));
         }
@@ -58,13 +62,15 @@ impl EnvironmentLight {
                 return Err(EnvironmentError::Pixel { x, y, value });
             }
         }
-        Ok(Self { radiance: scale, panorama: Some(Box::new(Panorama::new(image, world_from_map))) })
+        Ok(Self { radiance: scale.into(), panorama: Some(Box::new(Panorama::new(image, world_from_map))) })
     }
     /// Radiance arriving from the unit direction `d`.
     #[inline]
     fn arriving(&self, d: Vec3, lambda: Wavelengths) -> Spectrum {
-        let seen = self.panorama.as_ref().map_or(Rgb::ONE, |p| p.eval(d));
-        Spectrum::from_rgb(self.radiance * seen, lambda)
+        match &self.panorama {
+            None => self.radiance.at(lambda),
+            Some(p) => self.radiance.filtered(p.eval(d), lambda),
+        }
     }
     #[inline]
     fn sample(&self, u: Vec2) -> (Vec3, f32) {
@@ -83,7 +89,7 @@ impl Emitter for EnvironmentLight {
     /// πR² times the integral of the radiance over all directions.
     fn power(&self, around: &Surroundings) -> Rgb {
         let integral = self.panorama.as_ref().map_or(Rgb::splat(4.0 * PI), |p| p.integral());
-        self.radiance * integral * around.disk_area()
+        self.radiance.rgb() * integral * around.disk_area()
     }
     #[inline]
     fn sample_li(&self, _: Vec3, u: Vec2, around: &Surroundings) -> Option<LiSample> {

@@ -2,18 +2,18 @@
 use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
 use crate::{
     math::{Ray, warp::square_to_sphere},
-    spectrum::{Rgb, Spectrum},
+    spectrum::{Illuminant, Rgb},
 };
 use glam::{Vec2, Vec3};
 use std::f32::consts::PI;
 
 /// An isotropic point light.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct PointLight {
     /// Position.
     pub p: Vec3,
     /// Radiant intensity, W/sr.
-    pub intensity: Rgb,
+    pub intensity: Illuminant,
 }
 
 impl Emitter for PointLight {
@@ -21,20 +21,20 @@ impl Emitter for PointLight {
         "point"
     }
     fn power(&self, _: &Surroundings) -> Rgb {
-        self.intensity * (4.0 * PI)
+        self.intensity.rgb() * (4.0 * PI)
     }
     #[inline]
     fn sample_li(&self, from: Vec3, _: Vec2, around: &Surroundings) -> Option<LiSample> {
         let to = self.p - from;
         let d2 = to.length_squared();
         let wi = to.try_normalize()?;
-        let li = Spectrum::from_rgb(self.intensity, around.lambda) / d2;
+        let li = self.intensity.at(around.lambda) / d2;
         Some(LiSample { wi, li, pdf: 1.0, delta: true, end: LightEnd::Point(self.p) })
     }
     #[inline]
     fn sample_le(&self, _: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample> {
         let ray = Ray { o: self.p, d: square_to_sphere(u_dir), tmin: 0.0, tmax: f32::INFINITY };
-        let le = Spectrum::from_rgb(self.intensity, around.lambda);
+        let le = self.intensity.at(around.lambda);
         Some(LeSample { ray, le, pdf_area: 1.0, pdf_dir: 0.25 / PI, cos: 1.0 })
     }
     #[inline]

@@ -2,7 +2,7 @@
 use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
 use crate::{
     math::{Frame, Local, Ray},
-    spectrum::{Rgb, Spectrum},
+    spectrum::{Illuminant, Rgb},
 };
 use glam::{Vec2, Vec3};
 use std::f32::consts::{PI, TAU};
@@ -12,11 +12,11 @@ use std::f32::consts::{PI, TAU};
 /// Full intensity up to the half-angle `hot_spot` from the axis and none beyond `fall_out`; in between it falls by
 /// `s²(3 − 2s)`, where s runs from 0 to 1 linearly in the *cosine* of the angle (Pharr, Jakob & Humphreys 2023, section
 /// 12.1.1, have the same).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct SpotLight {
     p: Vec3,
     axis: Frame,
-    intensity: Rgb,
+    intensity: Illuminant,
     /// 1 − cos of `hot_spot` and of `fall_out`: exact for narrow beams too.
     hot: f32,
     out: f32,
@@ -52,14 +52,25 @@ impl SpotLight {
     ///
     /// # Errors
     /// A zero direction, or angles that are not `0 <= hot_spot <= fall_out <= π` with `fall_out > 0`.
-    pub fn new(p: Vec3, direction: Vec3, intensity: Rgb, [hot_spot, fall_out]: [f32; 2]) -> Result<Self, SpotError> {
+    pub fn new(
+        p: Vec3,
+        direction: Vec3,
+        intensity: impl Into<Illuminant>,
+        [hot_spot, fall_out]: [f32; 2],
+    ) -> Result<Self, SpotError> {
         let axis = direction.try_normalize().ok_or(SpotError::Direction(direction))?;
         // Angles given in degrees and converted may pass π by a rounding.
         let in_order = 0.0 <= hot_spot && hot_spot <= fall_out && 0.0 < fall_out && fall_out <= 1.000_001 * PI;
         if !in_order {
             return Err(SpotError::Angles { hot_spot, fall_out });
         }
-        Ok(Self { p, axis: Frame::from_normal(axis), intensity, hot: versine(hot_spot), out: versine(fall_out) })
+        Ok(Self {
+            p,
+            axis: Frame::from_normal(axis),
+            intensity: intensity.into(),
+            hot: versine(hot_spot),
+            out: versine(fall_out),
+        })
     }
     /// Share of the intensity that leaves in the unit direction `d`.
     #[inline]
@@ -110,7 +121,7 @@ impl Emitter for SpotLight {
     }
     /// 2πI(1 − (cos hot + cos out)/2): the falloff is antisymmetric about its middle.
     fn power(&self, _: &Surroundings) -> Rgb {
-        self.intensity * self.solid_angle()
+        self.intensity.rgb() * self.solid_angle()
     }
     #[inline]
     fn sample_li(&self, from: Vec3, _: Vec2, around: &Surroundings) -> Option<LiSample> {
@@ -119,7 +130,7 @@ impl Emitter for SpotLight {
         let falloff = self.falloff(-wi);
         (falloff > 0.0).then(|| LiSample {
             wi,
-            li: Spectrum::from_rgb(self.intensity, around.lambda) * (falloff / to.length_squared()),
+            li: self.intensity.at(around.lambda) * (falloff / to.length_squared()),
             pdf: 1.0,
             delta: true,
             end: LightEnd::Point(self.p),
@@ -134,7 +145,7 @@ impl Emitter for SpotLight {
         let falloff = self.falloff(d);
         (falloff > 0.0).then(|| LeSample {
             ray: Ray { o: self.p, d, tmin: 0.0, tmax: f32::INFINITY },
-            le: Spectrum::from_rgb(self.intensity, around.lambda) * falloff,
+            le: self.intensity.at(around.lambda) * falloff,
             pdf_area: 1.0,
             pdf_dir: falloff / self.solid_angle(),
             cos: 1.0,

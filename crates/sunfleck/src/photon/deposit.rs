@@ -17,8 +17,10 @@ pub struct Photon {
     pub flux: Spectrum,
     /// Unit direction back to where it came from.
     pub wi: Vec3,
-    /// Scatterings since the light.
-    pub scatterings: u32,
+    /// Scatterings since the light; no path has more than [`u16::MAX`].
+    pub scatterings: u16,
+    /// Some boundary parted its wavelengths, and its flux is that of the hero alone: see [`crate::spectrum`].
+    pub dispersed: bool,
 }
 
 /// Which arrivals are kept. All rules keep photons at connectible surfaces only: nothing could gather them elsewhere.
@@ -136,7 +138,8 @@ impl Visit for Deposit {
     fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
         if self.keep.keeps(a) && a.at.is_connectible() {
             self.catch.positions.push(a.at.p);
-            self.catch.photons.push(Photon { flux: a.beta, wi: a.at.wo, scatterings: a.scatterings });
+            let scatterings = a.scatterings.min(u32::from(u16::MAX)) as u16;
+            self.catch.photons.push(Photon { flux: a.beta, wi: a.at.wo, scatterings, dispersed: a.dispersed });
         }
         if self.keep == Keep::Caustic { Step::OnIfDelta } else { Step::On }
     }

@@ -22,9 +22,19 @@ pub struct Disc {
     pub kernel: Kernel,
 }
 
+/// The camera's half of a path, which ends where photons are gathered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CameraEnd {
+    /// Scatterings at most that a photon may bring along.
+    pub most: u32,
+    /// Some boundary parted the camera path's wavelengths: see [`crate::spectrum`].
+    pub dispersed: bool,
+}
+
 /// Adds up what photons scatter toward the eye.
 struct Estimate<'i> {
     at: &'i Interaction,
+    end: CameraEnd,
     /// Set where scattering is the same for all directions on the eye's side and none on the other, which is where most
     /// photons are gathered: only their flux needs summing.
     matt: bool,
@@ -33,11 +43,15 @@ struct Estimate<'i> {
 
 impl<'i> Estimate<'i> {
     #[inline]
-    fn new(at: &'i Interaction) -> Self {
-        Self { at, matt: matches!(at.bsdf, Bsdf::Diffuse(_)), sum: Spectrum::BLACK }
+    fn new(at: &'i Interaction, end: CameraEnd) -> Self {
+        Self { at, end, matt: matches!(at.bsdf, Bsdf::Diffuse(_)), sum: Spectrum::BLACK }
     }
     #[inline]
     fn add(&mut self, photon: &Photon, weight: f32) {
+        if u32::from(photon.scatterings) > self.end.most {
+            return;
+        }
+        let weight = weight * Spectrum::join(self.end.dispersed, photon.dispersed);
         if !self.matt {
             self.sum += self.at.f_photon(photon.wi) * photon.flux * weight;
             return;
@@ -54,17 +68,12 @@ impl<'i> Estimate<'i> {
     }
 }
 
-/// Radiance that `at` scatters toward `at.wo` from all photons of the disc around it that were scattered at most `most`
-/// times.
+/// Radiance that `at`, where the camera path `end`s, scatters toward `at.wo` from the photons of the disc around it.
 #[inline]
-pub fn gather_within(map: &RadiusMap, at: &Interaction, disc: Disc, most: u32) -> Spectrum {
+pub fn gather_within(map: &RadiusMap, at: &Interaction, disc: Disc, end: CameraEnd) -> Spectrum {
     let r2 = disc.radius * disc.radius;
-    let mut estimate = Estimate::new(at);
-    map.within(at.p, disc.radius, |photon, d2| {
-        if photon.scatterings <= most {
-            estimate.add(photon, disc.kernel.shape(d2, r2));
-        }
-    });
+    let mut estimate = Estimate::new(at, end);
+    map.within(at.p, disc.radius, |photon, d2| estimate.add(photon, disc.kernel.shape(d2, r2)));
     estimate.radiance(r2)
 }
 
@@ -118,26 +127,23 @@ impl NearestQuery {
     }
 }
 
-/// Radiance that `at` scatters toward `at.wo` from the photons nearest to it, of which those scattered more than `most`
-/// times count as dark.
+/// Radiance that `at`, where the camera path `end`s, scatters toward `at.wo` from the photons nearest to it, of which those
+/// with too many scatterings count as dark.
 #[inline]
 pub fn gather_nearest(
     map: &NearestMap,
     at: &Interaction,
     query: &mut NearestQuery,
     kernel: Kernel,
-    most: u32,
+    end: CameraEnd,
 ) -> Spectrum {
     if map.is_empty() {
         return Spectrum::BLACK;
     }
     let (count, r2) = query.find(map, at.p);
-    let mut estimate = Estimate::new(at);
+    let mut estimate = Estimate::new(at, end);
     for (index, d2) in query.found.iter().take(count) {
-        let photon = map.photon(index);
-        if photon.scatterings <= most {
-            estimate.add(photon, kernel.shape(d2, r2));
-        }
+        estimate.add(map.photon(index), kernel.shape(d2, r2));
     }
     estimate.radiance(r2)
 }

@@ -23,7 +23,7 @@ pub mod source;
 pub mod survey;
 
 pub use deposit::{Catch, Keep, Photon, Shower};
-pub use gather::{Disc, NearestQuery, gather_nearest, gather_within};
+pub use gather::{CameraEnd, Disc, NearestQuery, gather_nearest, gather_within};
 pub use kernel::Kernel;
 pub use map::{NearestMap, RadiusMap};
 pub use radius::{Reach, Schedule};

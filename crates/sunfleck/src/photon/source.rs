@@ -42,7 +42,7 @@ impl Source {
         let (u_area, u_dir) = (sampler.next_2d(), sampler.next_2d());
         let le = world.light(light).sample_le(u_area, u_dir, world.around())?;
         let beta: Spectrum = le.flux() / prob;
-        let start = Start { ray: le.ray, beta, mode: Transport::Flux };
+        let start = Start { ray: le.ray, beta, mode: Transport::Flux, dispersed: false };
         let pdf = prob * le.pdf_area * le.pdf_dir;
         (beta.is_finite() && !beta.is_black()).then_some(Emission { start, light, le, pdf })
     }

@@ -36,7 +36,7 @@ pub fn survey(scene: &Scene, spec: FilmSpec, limits: &Limits, seed: u64) -> Vec<
     let look = |index| {
         let mut sampler = Sampler::new(seed, Domain::Prepare, u64::MAX, index);
         let camera = world.camera().ray(sampler.next_2d(), sampler.next_2d());
-        let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance };
+        let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
         let mut first = First { angle: pixel_angle(camera.solid_angle, spec), found: None };
         walk(&world, &start, limits, &mut sampler, &mut first);
         first.found

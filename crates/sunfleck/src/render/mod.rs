@@ -3,6 +3,7 @@ use crate::{
     film::{Counts, Film, FilmSpec, PassImage},
     integrator::{Integrator, Pass},
     scene::Scene,
+    spectrum::ColorMode,
 };
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -24,6 +25,8 @@ pub struct Settings {
     pub spec: FilmSpec,
     /// Seed of all randomness.
     pub seed: u64,
+    /// Whether colours are carried as RGB or by wavelength.
+    pub color: ColorMode,
     /// When to stop.
     pub budget: Budget,
 }
@@ -59,7 +62,7 @@ pub fn render(
     while !settings.budget.spent(film.passes(), start.elapsed(), longest) {
         let pass_start = Instant::now();
         image.clear();
-        let pass = Pass::new(settings.seed, film.passes());
+        let pass = Pass::new(settings.seed, film.passes()).colored(settings.color);
         prepared.render_pass(&pass, &mut image);
         film.add(&image);
         counts += image.counts;

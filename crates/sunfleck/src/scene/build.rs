@@ -10,7 +10,7 @@ use crate::{
     light::{Light, Sides, Surroundings},
     math::Motion,
     shape::Shape,
-    spectrum::{Rgb, Wavelengths},
+    spectrum::{Colour, Illuminant, Wavelengths},
     texture::Texture,
 };
 use glam::{Affine3A, Vec3};
@@ -24,7 +24,7 @@ pub struct SurfaceDef {
     /// Scattering.
     pub material: MaterialId,
     /// Emitted radiance W/(m²·sr) and the sides that emit.
-    pub emission: Option<(Rgb, Sides)>,
+    pub emission: Option<(Illuminant, Sides)>,
 }
 
 /// Why a scene cannot be built.
@@ -102,8 +102,8 @@ impl SceneBuilder {
         TextureId(self.textures.len() as u32 - 1)
     }
     /// Adds a texture of one colour.
-    pub fn constant(&mut self, c: Rgb) -> TextureId {
-        self.texture(Texture::Constant(c))
+    pub fn constant(&mut self, c: impl Into<Colour>) -> TextureId {
+        self.texture(Texture::Constant(c.into()))
     }
     /// Adds a material.
     pub fn material(&mut self, m: impl Into<Material>) -> MaterialId {

@@ -1,6 +1,6 @@
 //! A point where a path meets a surface, and everything that can be asked there.
 use crate::{
-    bsdf::{Bsdf, Scatter, Transport},
+    bsdf::{Bsdf, BsdfSample, Scatter, Transport},
     light::{EmitterHit, LightEnd, LightId},
     math::{Frame, Local, Ray, offset_origin},
     shape::SurfacePoint,
@@ -44,6 +44,8 @@ pub struct Scattered {
     pub delta: bool,
     /// η of the new side over η of the old one.
     pub eta: f32,
+    /// Right for the hero alone: see [`crate::spectrum`].
+    pub disperses: bool,
 }
 
 impl Interaction {
@@ -116,7 +118,8 @@ impl Interaction {
             Transport::Flux => self.cos_factor(wi, mode) / s.wi.abs_cos_theta(),
         };
         let weight = s.weight * adjoint;
-        weight.is_finite().then_some(Scattered { wi, weight, pdf: s.pdf, delta: s.delta, eta: s.eta })
+        let BsdfSample { pdf, delta, eta, disperses, .. } = s;
+        weight.is_finite().then_some(Scattered { wi, weight, pdf, delta, eta, disperses })
     }
     #[inline]
     fn cos_factor(&self, wi: Vec3, mode: Transport) -> f32 {

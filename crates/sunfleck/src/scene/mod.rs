@@ -98,6 +98,10 @@ impl Scene {
     pub fn materials(&self) -> &[Material] {
         &self.materials
     }
+    /// Whether some material bends each wavelength differently, which only spectral mode shows.
+    pub fn is_dispersive(&self) -> bool {
+        self.materials.iter().any(Material::is_dispersive)
+    }
     /// Centre and radius of a sphere around all geometry, wherever it moves.
     pub fn bounding_sphere(&self) -> (Vec3, f32) {
         (self.around.centre, self.around.radius)

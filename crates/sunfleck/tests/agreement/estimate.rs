@@ -3,6 +3,7 @@ use sunfleck::{
     film::{FilmSpec, Filter, PassImage},
     integrator::{Params, Pass, find},
     scene::Scene,
+    spectrum::ColorMode,
 };
 
 /// Edge of a picture and of a block in pixels.
@@ -59,14 +60,20 @@ pub(crate) fn estimate(scene: &Scene, name: &'static str, passes: u64) -> Estima
     let mut image = PassImage::new(spec);
     let mut blocks = vec![Sums::default(); BLOCKS_A_ROW * BLOCKS_A_ROW * 3];
     let mut picture = Sums::default();
+    // Wavelengths are even over successive passes; taken one by one, passes would seem as different as their colours.
+    let (color, size) = if scene.is_dispersive() { (ColorMode::Spectral, 16) } else { (ColorMode::Rgb, 1) };
+    let mut group = vec![0.0; blocks.len()];
     for index in 0..passes {
         image.clear();
-        prepared.render_pass(&Pass::new(seed, index), &mut image);
-        let means = block_means(&image);
-        blocks.iter_mut().zip(&means).for_each(|(s, m)| s.add(*m));
-        picture.add(means.iter().sum::<f64>() / means.len() as f64);
+        prepared.render_pass(&Pass::new(seed, index).colored(color), &mut image);
+        group.iter_mut().zip(block_means(&image)).for_each(|(sum, m)| *sum += m / size as f64);
+        if (index + 1) % size == 0 {
+            blocks.iter_mut().zip(&group).for_each(|(s, m)| s.add(*m));
+            picture.add(group.iter().sum::<f64>() / group.len() as f64);
+            group.fill(0.0);
+        }
     }
-    let n = passes as f64;
+    let n = (passes / size) as f64;
     Estimate { name, blocks: blocks.into_iter().map(|s| s.moment(n)).collect(), picture: picture.moment(n) }
 }
 

@@ -97,4 +97,7 @@ agreement![
     moving_light,
     moving_camera,
     moving_thin_lens,
+    dispersive_ball,
+    dispersive_caustic,
+    dispersive_rough_glass,
 ];

@@ -9,6 +9,7 @@ use sunfleck::{
     light::{DirectionalLight, EnvironmentLight, PointLight, Sides, SpotLight},
     scene::{MaterialId, Scene, SceneBuilder, SurfaceDef},
     shape::{Mesh, Parallelogram, Shape, Sphere},
+    spectrum::Ior,
     texture::{ImageTexture, Texture, Wrap},
 };
 
@@ -48,6 +49,9 @@ pub(crate) const SCENES: &[TinyScene] = &[
     TinyScene { name: "moving_light", algorithms: ALL, build: moving_light },
     TinyScene { name: "moving_camera", algorithms: ALL, build: moving_camera },
     TinyScene { name: "moving_thin_lens", algorithms: ALL, build: moving_thin_lens },
+    TinyScene { name: "dispersive_ball", algorithms: NOT_LIGHT, build: dispersive_ball },
+    TinyScene { name: "dispersive_caustic", algorithms: ALL, build: dispersive_caustic },
+    TinyScene { name: "dispersive_rough_glass", algorithms: ALL, build: dispersive_rough_glass },
 ];
 
 /// A room 2 x 2 x 2 around the origin with an open front at z = 1, walls of three colours, and the eye before it.
@@ -83,12 +87,12 @@ fn lamp(side: f32, y: f32) -> Shape {
 
 fn emit(b: &mut SceneBuilder, shape: Shape, radiance: Vec3, sides: Sides) {
     let material = diffuse(b, Vec3::ZERO);
-    b.surface(SurfaceDef { shape, material, emission: Some((radiance, sides)) });
+    b.surface(SurfaceDef { shape, material, emission: Some((radiance.into(), sides)) });
 }
 
 fn clear_glass(b: &mut SceneBuilder) -> DielectricMaterial {
     let white = b.constant(Vec3::ONE);
-    DielectricMaterial { eta: 1.5, reflectance: white, transmittance: white }
+    DielectricMaterial { eta: 1.5.into(), reflectance: white, transmittance: white }
 }
 
 fn glass(b: &mut SceneBuilder) -> MaterialId {
@@ -143,7 +147,7 @@ fn point_light() -> Scene {
     let mut b = room();
     let grey = diffuse(&mut b, Vec3::splat(0.6));
     b.add(ball([-0.3, -0.6, 0.1], 0.4), grey);
-    b.light(PointLight { p: Vec3::new(0.2, 0.5, 0.3), intensity: Vec3::new(1.0, 0.8, 0.6) });
+    b.light(PointLight { p: Vec3::new(0.2, 0.5, 0.3), intensity: Vec3::new(1.0, 0.8, 0.6).into() });
     finish(b)
 }
 
@@ -301,12 +305,47 @@ fn an_eye_in_glass() -> Scene {
     finish(b)
 }
 
+/// Glass with more dispersion than any real one.
+fn prism_glass(b: &mut SceneBuilder) -> DielectricMaterial {
+    DielectricMaterial { eta: Ior::Cauchy([1.35, 0.06, 0.0]), ..clear_glass(b) }
+}
+
+fn dispersive_ball() -> Scene {
+    let mut b = room();
+    let glass = prism_glass(&mut b);
+    let glass = b.material(glass);
+    b.add(ball([0.1, -0.4, 0.1], 0.5), glass);
+    emit(&mut b, lamp(1.6, 0.95), Vec3::new(3.0, 2.5, 2.0), Sides::One);
+    finish(b)
+}
+
+/// The eye is below the ball, so that nothing but matt surfaces is seen.
+fn dispersive_caustic() -> Scene {
+    let mut b = room();
+    let glass = prism_glass(&mut b);
+    let glass = b.material(glass);
+    b.add(ball([0.0, 0.15, 0.0], 0.45), glass);
+    let view = View { position: Vec3::new(0.0, -0.35, 0.0), look_at: Vec3::NEG_Y, up: Vec3::Z };
+    b.camera(Perspective::new(&view, 80.0, 1.0).unwrap());
+    emit(&mut b, lamp(1.6, 0.95), Vec3::splat(3.0), Sides::One);
+    finish(b)
+}
+
+fn dispersive_rough_glass() -> Scene {
+    let mut b = room();
+    let glass = prism_glass(&mut b);
+    let frosted = b.material(RoughDielectricMaterial { glass, alpha: 0.3 });
+    b.add(ball([0.1, -0.4, 0.1], 0.5), frosted);
+    emit(&mut b, lamp(1.2, 0.95), Vec3::splat(5.0), Sides::One);
+    finish(b)
+}
+
 /// A strong quad, a weak ball and a point: the choice between lights must cancel out.
 fn unlike_lights() -> Scene {
     let mut b = room();
     emit(&mut b, lamp(0.6, 0.95), Vec3::new(6.0, 5.0, 4.0), Sides::One);
     emit(&mut b, ball([0.5, -0.7, 0.2], 0.2), Vec3::new(0.5, 2.0, 0.5), Sides::One);
-    b.light(PointLight { p: Vec3::new(-0.6, -0.2, 0.3), intensity: Vec3::new(0.1, 0.1, 0.4) });
+    b.light(PointLight { p: Vec3::new(-0.6, -0.2, 0.3), intensity: Vec3::new(0.1, 0.1, 0.4).into() });
     finish(b)
 }
 
@@ -335,7 +374,7 @@ fn moving_light() -> Scene {
     b.add(ball([0.1, -0.6, 0.0], 0.4), grey);
     let shine = |shape, radiance| SurfaceDef { shape, material: black, emission: Some((radiance, Sides::One)) };
     let shade = SurfaceDef { shape: ball([0.0, 0.2, 0.0], 0.15), material: grey, emission: None };
-    let swing = b.object(vec![shine(lamp(0.5, 0.0), Vec3::new(9.0, 8.0, 7.0)), shade]);
+    let swing = b.object(vec![shine(lamp(0.5, 0.0), Vec3::new(9.0, 8.0, 7.0).into()), shade]);
     let at = |x: f32, turn: f32| {
         Affine3A::from_rotation_translation(Quat::from_rotation_z(turn), Vec3::new(x, 0.6 - 0.3 * turn.abs(), 0.1))
     };

@@ -51,7 +51,8 @@ fn a_boundary_reflects_alike_from_both_sides() {
 #[test]
 fn light_bends_by_snells_law_and_away_from_glass() {
     for (eta, z) in [(1.5f32, 0.6), (1.5, -0.9), (0.75, 0.8), (2.4, -0.95)] {
-        let glass = Dielectric { eta, reflectance: Spectrum::BLACK, transmittance: Spectrum::ONE };
+        let glass =
+            Dielectric { eta: Spectrum::splat(eta), reflectance: Spectrum::BLACK, transmittance: Spectrum::ONE };
         let wo = Local(Vec3::new((1.0f32 - z * z).sqrt(), 0.0, z));
         let s = glass.sample(wo, 0.5, Vec2::ZERO, Transport::Flux).expect("below the critical angle");
         let (eta_o, eta_i) = if z > 0.0 { (1.0, eta) } else { (eta, 1.0) };

@@ -1,10 +1,10 @@
 //! The models under test, each at several settings, and the directions they are seen from.
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec4};
 use std::collections::BTreeSet;
 use sunfleck::{
     bsdf::*,
     math::Local,
-    spectrum::{Rgb, Wavelengths},
+    spectrum::{Ior, Rgb, Wavelengths},
     texture::Texture,
 };
 
@@ -14,8 +14,8 @@ pub(crate) struct Case {
     pub(crate) label: String,
     pub(crate) model: &'static str,
     pub(crate) bsdf: Bsdf,
-    /// η below the surface over η above it.
-    pub(crate) eta: f32,
+    /// η below the surface over η above it, for the first three lanes.
+    pub(crate) eta: Vec3,
 }
 
 impl Case {
@@ -36,13 +36,14 @@ impl Case {
 
 /// Textures by their colours, so that a material can be written in one line.
 struct Shelf {
+    lambda: Wavelengths,
     textures: Vec<Texture>,
     cases: Vec<Case>,
 }
 
 impl Shelf {
     fn colour(&mut self, r: f32, g: f32, b: f32) -> TextureId {
-        self.textures.push(Texture::Constant(Rgb::new(r, g, b)));
+        self.textures.push(Texture::Constant(Rgb::new(r, g, b).into()));
         TextureId(self.textures.len() as u32 - 1)
     }
     fn grey(&mut self, v: f32) -> TextureId {
@@ -52,9 +53,12 @@ impl Shelf {
         self.add_between(setting, 1.0, material);
     }
     fn add_between(&mut self, setting: &str, eta: f32, material: impl Into<Material>) {
+        self.add_by_lane(setting, Vec3::splat(eta), material);
+    }
+    fn add_by_lane(&mut self, setting: &str, eta: Vec3, material: impl Into<Material>) {
         let material = material.into();
         assert!(material.textures().iter().all(|t| (t.0 as usize) < self.textures.len()));
-        let at = Lookup { textures: &self.textures, uv: Vec2::ZERO, lambda: Wavelengths::Rgb };
+        let at = Lookup { textures: &self.textures, uv: Vec2::ZERO, lambda: self.lambda };
         let (bsdf, model) = (material.resolve(&at), material.name());
         self.cases.push(Case { label: format!("{model} {setting}"), model, bsdf, eta });
     }
@@ -62,12 +66,27 @@ impl Shelf {
 
 /// Every model of the list, at settings that cover its range.
 pub(crate) fn cases() -> Vec<Case> {
-    let mut shelf = Shelf { textures: Vec::new(), cases: Vec::new() };
+    let mut shelf = Shelf { lambda: Wavelengths::Rgb, textures: Vec::new(), cases: Vec::new() };
     plain(&mut shelf);
     dielectrics(&mut shelf);
     conductors(&mut shelf);
     glossy(&mut shelf);
+    dispersive(&mut shelf);
     shelf.cases
+}
+
+/// Glass that parts the wavelengths of a pass, more than any real one. In these cases lanes are not colours.
+fn dispersive(s: &mut Shelf) {
+    let (white, nm) = (s.grey(1.0), Vec4::new(560.0, 640.0, 430.0, 490.0));
+    s.lambda = Wavelengths::Spectral(nm);
+    let ior = Ior::Cauchy([1.4, 0.03, 0.0]);
+    let eta = ior.at(s.lambda).to_rgb(Wavelengths::Rgb);
+    let glass = DielectricMaterial { eta: ior, reflectance: white, transmittance: white };
+    s.add_by_lane("dispersive", eta, glass);
+    for alpha in [0.02, 0.3, 1.0] {
+        s.add_by_lane(&format!("dispersive alpha {alpha}"), eta, RoughDielectricMaterial { glass, alpha });
+    }
+    s.lambda = Wavelengths::Rgb;
 }
 
 fn plain(s: &mut Shelf) {
@@ -83,14 +102,14 @@ fn dielectrics(s: &mut Shelf) {
     let (white, black) = (s.grey(1.0), s.grey(0.0));
     let (pink, green) = (s.colour(0.9, 0.4, 0.5), s.colour(0.2, 0.8, 0.3));
     for eta in [1.5, 1.33, 1.0 / 1.5, 2.4, 1.0] {
-        let glass = DielectricMaterial { eta, reflectance: white, transmittance: white };
+        let glass = DielectricMaterial { eta: eta.into(), reflectance: white, transmittance: white };
         s.add_between(&format!("eta {eta:.2}"), eta, glass);
     }
-    let tinted = DielectricMaterial { eta: 1.5, reflectance: pink, transmittance: green };
+    let tinted = DielectricMaterial { eta: 1.5.into(), reflectance: pink, transmittance: green };
     s.add_between("tinted", 1.5, tinted);
     for alpha in [0.0, 1e-3, 0.05, 0.3, 1.0] {
         for eta in [1.5, 1.0 / 1.33, 1.1] {
-            let glass = DielectricMaterial { eta, reflectance: white, transmittance: white };
+            let glass = DielectricMaterial { eta: eta.into(), reflectance: white, transmittance: white };
             s.add_between(&format!("eta {eta:.2} alpha {alpha}"), eta, RoughDielectricMaterial { glass, alpha });
         }
     }

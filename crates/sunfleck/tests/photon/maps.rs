@@ -7,8 +7,8 @@ use sunfleck::{
     light::PointLight,
     math::{Ray, Vec2},
     photon::{
-        Catch, Disc, Keep, Kernel, NearestMap, NearestQuery, Photon, RadiusMap, Shower, Source, gather_nearest,
-        gather_within,
+        CameraEnd, Catch, Disc, Keep, Kernel, NearestMap, NearestQuery, Photon, RadiusMap, Shower, Source,
+        gather_nearest, gather_within,
     },
     sampler::{Domain, Sampler},
     scene::{Interaction, Scene, SceneBuilder},
@@ -32,7 +32,7 @@ fn lamp_in_a_box(a: f32, power: Rgb) -> Scene {
     let mut b = SceneBuilder::new();
     let grey = matt(&mut b, Rgb::splat(a));
     walls().into_iter().for_each(|w| b.add(w, grey));
-    b.light(PointLight { p: Vec3::new(0.2, 0.1, -0.3), intensity: power / (4.0 * std::f32::consts::PI) });
+    b.light(PointLight { p: Vec3::new(0.2, 0.1, -0.3), intensity: (power / (4.0 * std::f32::consts::PI)).into() });
     b.build().expect("a scene")
 }
 
@@ -52,7 +52,7 @@ fn two_lamps_of_unlike_power_give_photons_of_like_flux_and_the_sum_of_their_powe
     walls().into_iter().for_each(|w| b.add(w, grey));
     for (x, watts) in [(-0.5, 1.0), (0.5, 9.0)] {
         let intensity = Rgb::splat(watts / (4.0 * std::f32::consts::PI));
-        b.light(PointLight { p: Vec3::new(x, 0.0, 0.0), intensity });
+        b.light(PointLight { p: Vec3::new(x, 0.0, 0.0), intensity: intensity.into() });
     }
     let catch = shower(10_000, Keep::All, 1).shoot(&b.build().unwrap().world(RGB, 0.0), &Source::plain());
     assert!((flux(&catch) / 10.0 - 1.0).abs().max_element() < 1e-4, "{}", flux(&catch));
@@ -95,7 +95,7 @@ fn light_paths_leave_the_gathers_scattering_to_the_eye() {
     let scene = lamp_in_a_box(0.8, Rgb::ONE);
     for limit in 0..5u32 {
         let catch = shower(500, Keep::All, limit).shoot(&scene.world(RGB, 0.0), &Source::plain());
-        assert_eq!(catch.photons.iter().map(|p| p.scatterings + 1).max().unwrap_or(0), limit);
+        assert_eq!(catch.photons.iter().map(|p| u32::from(p.scatterings) + 1).max().unwrap_or(0), limit);
     }
 }
 
@@ -123,7 +123,12 @@ fn floor_at(x: f32, z: f32) -> Interaction {
 }
 
 fn photon(flux: f32) -> Photon {
-    Photon { flux: Spectrum::splat(flux), wi: Vec3::Y, scatterings: 0 }
+    Photon { flux: Spectrum::splat(flux), wi: Vec3::Y, scatterings: 0, dispersed: false }
+}
+
+/// A camera path that takes photons of up to `most` scatterings.
+fn up_to(most: u32) -> CameraEnd {
+    CameraEnd { most, dispersed: false }
 }
 
 /// `n` photons of one watt each on the floor, uniform in [-1, 1]².
@@ -148,7 +153,7 @@ fn both_maps_find_what_a_plain_search_finds() {
     (200..260).for_each(|i| catch.positions[i] = Vec3::new(0.5, 0.0, 0.5));
     catch.positions[260] = Vec3::new(90.0, 3.0, -40.0);
     for (i, p) in catch.photons.iter_mut().enumerate() {
-        p.scatterings = i as u32;
+        p.scatterings = i as u16;
     }
     let grid = RadiusMap::new(&catch, 0.05);
     let tree = NearestMap::new(catch.clone());
@@ -156,7 +161,7 @@ fn both_maps_find_what_a_plain_search_finds() {
     let places =
         [[0.0, 0.0, 0.0], [0.5, 0.0, 0.5], [-0.99, 0.0, 0.99], [1.04, 0.0, 0.0], [89.99, 3.0, -40.0], [7.0; 3]];
     for p in places.map(Vec3::from) {
-        let mut want: Vec<(f32, u32)> =
+        let mut want: Vec<(f32, u16)> =
             catch.positions.iter().zip(0..).map(|(q, i)| (q.distance_squared(p), i)).collect();
         want.sort_by(|a, b| a.partial_cmp(b).unwrap());
         for radius in [0.003f32, 0.05, 0.4] {
@@ -197,7 +202,7 @@ fn the_nearest_estimate_of_an_even_density_is_right_on_average() {
         let map = NearestMap::new(poisson_floor(500, seed));
         for ((k, r_max), sums) in searches.iter().zip(&mut sums) {
             for (kernel, sum) in Kernel::ALL.into_iter().zip(sums) {
-                let l = gather_nearest(&map, &at, &mut NearestQuery::new(*k, *r_max), kernel, 0);
+                let l = gather_nearest(&map, &at, &mut NearestQuery::new(*k, *r_max), kernel, up_to(0));
                 *sum += f64::from(l.max()) / seeds as f64;
             }
         }
@@ -219,7 +224,7 @@ fn the_fixed_estimate_of_an_even_density_is_right() {
     let want = (1 << 16) as f32 * std::f32::consts::FRAC_1_PI;
     for kernel in Kernel::ALL {
         for radius in [0.05, 0.1, 0.3] {
-            let got = gather_within(&map, &at, Disc { radius, kernel }, 0).max();
+            let got = gather_within(&map, &at, Disc { radius, kernel }, up_to(0)).max();
             assert!((got / want - 1.0).abs() < 0.03, "{kernel:?} of {radius}: {}", got / want);
         }
     }
@@ -232,7 +237,7 @@ fn coincident_photons_give_neither_infinity_nor_darkness() {
         let positions = vec![Vec3::ZERO; n];
         let catch = Catch { positions, photons: vec![photon(1.0); n], ..Catch::default() };
         let map = NearestMap::new(catch);
-        let l = gather_nearest(&map, &at, &mut NearestQuery::new(20, 0.5), Kernel::Cone, 0);
+        let l = gather_nearest(&map, &at, &mut NearestQuery::new(20, 0.5), Kernel::Cone, up_to(0));
         assert!(l.is_finite() && l.max() > 0.0, "{n} photons in one place: {l:?}");
         assert!(map.spacing(20).is_none());
     }
@@ -243,11 +248,11 @@ fn few_photons_are_spread_over_the_largest_disc() {
     let at = floor_at(0.0, 0.0);
     let positions = vec![Vec3::new(0.01, 0.0, 0.0), Vec3::new(0.0, 0.0, 0.02), Vec3::new(3.0, 0.0, 0.0)];
     let map = NearestMap::new(Catch { positions, photons: vec![photon(1.0); 3], ..Catch::default() });
-    let l = gather_nearest(&map, &at, &mut NearestQuery::new(20, 0.5), Kernel::Constant, 0).max();
+    let l = gather_nearest(&map, &at, &mut NearestQuery::new(20, 0.5), Kernel::Constant, up_to(0)).max();
     let pi = std::f32::consts::PI;
     assert!((l / (2.0 / (pi * 0.25) / pi) - 1.0).abs() < 1e-5, "{l}");
     let none = NearestMap::new(Catch::default());
-    assert!(gather_nearest(&none, &at, &mut NearestQuery::new(20, 0.5), Kernel::Constant, 0).is_black());
+    assert!(gather_nearest(&none, &at, &mut NearestQuery::new(20, 0.5), Kernel::Constant, up_to(0)).is_black());
 }
 
 #[test]
@@ -259,10 +264,36 @@ fn photons_from_behind_and_photons_scattered_too_often_do_not_count() {
     let disc = Disc { radius: 1.0, kernel: Kernel::Constant };
     let one = std::f32::consts::FRAC_1_PI * std::f32::consts::FRAC_1_PI;
     for (most, count) in [(0, 1.0), (2, 1.0), (3, 2.0)] {
-        let fixed = gather_within(&RadiusMap::new(&catch, 1.0), &at, disc, most).max();
+        let fixed = gather_within(&RadiusMap::new(&catch, 1.0), &at, disc, up_to(most)).max();
         let map = NearestMap::new(catch.clone());
-        let nearest = gather_nearest(&map, &at, &mut NearestQuery::new(5, 1.0), Kernel::Constant, most).max();
+        let nearest = gather_nearest(&map, &at, &mut NearestQuery::new(5, 1.0), Kernel::Constant, up_to(most)).max();
         assert!((fixed - count * one).abs() < 1e-6 && (nearest - fixed).abs() < 1e-6, "{most}: {fixed} {nearest}");
+    }
+}
+
+#[test]
+fn the_weight_of_the_hero_is_not_counted_twice_where_dispersed_paths_meet() {
+    let at = floor_at(0.0, 0.0);
+    let disc = Disc { radius: 1.0, kernel: Kernel::Constant };
+    let one = std::f32::consts::FRAC_1_PI * std::f32::consts::FRAC_1_PI;
+    for (camera, light) in [(false, false), (false, true), (true, false), (true, true)] {
+        let whole = photon(1.0);
+        let flux = if light { whole.flux.hero_only() } else { whole.flux };
+        let catch = Catch {
+            positions: vec![Vec3::ZERO],
+            photons: vec![Photon { flux, dispersed: light, ..whole }],
+            ..Catch::default()
+        };
+        let end = CameraEnd { most: 0, dispersed: camera };
+        let beta = if camera { Spectrum::ONE.hero_only() } else { Spectrum::ONE };
+        let within = beta * gather_within(&RadiusMap::new(&catch, 1.0), &at, disc, end);
+        let map = NearestMap::new(catch);
+        let nearest = beta * gather_nearest(&map, &at, &mut NearestQuery::new(5, 1.0), Kernel::Constant, end);
+        // The hero, weighed once for the lanes that are dropped.
+        let want = if camera || light { 4.0 * one } else { one };
+        for got in [within, nearest] {
+            assert!((got.hero() - want).abs() < 1e-6, "{camera} {light}: {got:?}");
+        }
     }
 }
 

@@ -43,7 +43,11 @@ fn every_algorithm_gives_le_over_one_minus_albedo_in_a_furnace() {
 fn glass_in_light(from: Vec3) -> Scene {
     let mut b = SceneBuilder::new();
     let black = matt(&mut b, Rgb::ZERO);
-    b.surface(SurfaceDef { shape: ball([0.0; 3], 10.0), material: black, emission: Some((Rgb::ONE, Sides::Two)) });
+    b.surface(SurfaceDef {
+        shape: ball([0.0; 3], 10.0),
+        material: black,
+        emission: Some((Rgb::ONE.into(), Sides::Two)),
+    });
     let clear = glass(&mut b, 1.5);
     b.add(ball([0.0; 3], 1.0), clear);
     b.camera(eye(from, if from == Vec3::ZERO { Vec3::Z } else { Vec3::ZERO }, 60.0));
@@ -192,7 +196,7 @@ fn coloured_light_keeps_its_colour_on_white_walls() {
     }
     let shape = patch([-0.3, 0.9, -0.3], [0.6, 0.0, 0.0], [0.0, 0.0, 0.6]);
     let colour = Rgb::new(3.0, 2.0, 0.5);
-    b.surface(SurfaceDef { shape, material: grey, emission: Some((colour, Sides::One)) });
+    b.surface(SurfaceDef { shape, material: grey, emission: Some((colour.into(), Sides::One)) });
     b.camera(eye(Vec3::new(0.0, 0.0, -0.9), Vec3::Z, 80.0));
     let scene = b.build().unwrap();
     for (name, settings) in [("ppm", "direct=photons"), ("ppm", ""), ("photonmap", ""), ("photonmap", "final-gather=2")]

@@ -10,7 +10,7 @@ use sunfleck::{
     render::{Budget, Settings, render},
     scene::{MaterialId, Scene, SceneBuilder, SurfaceDef},
     shape::{Mesh, Parallelogram, Shape, Sphere},
-    spectrum::Rgb,
+    spectrum::{ColorMode, Rgb},
 };
 
 /// A square picture.
@@ -31,7 +31,9 @@ pub(crate) fn make(name: &str, settings: &str) -> Box<dyn Integrator> {
 /// Renders `passes` passes.
 pub(crate) fn shoot(scene: &Scene, integrator: &dyn Integrator, spec: FilmSpec, passes: u64) -> Film {
     let budget = Budget { passes: Some(passes), time: None };
-    render(scene, integrator, &Settings { spec, seed: 1, budget }, |_, _| ControlFlow::Continue(()))
+    render(scene, integrator, &Settings { spec, seed: 1, color: ColorMode::Rgb, budget }, |_, _| {
+        ControlFlow::Continue(())
+    })
 }
 
 /// Mean over the picture.
@@ -54,7 +56,7 @@ pub(crate) fn matt(b: &mut SceneBuilder, colour: Rgb) -> MaterialId {
 /// Clear glass of index `eta`.
 pub(crate) fn glass(b: &mut SceneBuilder, eta: f32) -> MaterialId {
     let white = b.constant(Rgb::ONE);
-    b.material(DielectricMaterial { eta, reflectance: white, transmittance: white })
+    b.material(DielectricMaterial { eta: eta.into(), reflectance: white, transmittance: white })
 }
 
 /// A patch whose outer side is that of `u × v`.
@@ -91,7 +93,7 @@ pub(crate) fn room(lamp: Rgb, size: f32) -> SceneBuilder {
     let black = matt(&mut b, Rgb::ZERO);
     let h = 0.5 * size;
     let shape = patch([-h, 0.98, -h], [size, 0.0, 0.0], [0.0, 0.0, size]);
-    b.surface(SurfaceDef { shape, material: black, emission: Some((lamp, Sides::One)) });
+    b.surface(SurfaceDef { shape, material: black, emission: Some((lamp.into(), Sides::One)) });
     b.camera(eye(Vec3::new(0.0, 0.0, -0.95), Vec3::new(0.0, -0.1, 1.0), 90.0));
     b
 }
@@ -125,7 +127,7 @@ pub(crate) fn furnace_ball(le: Rgb, albedo: Rgb) -> Scene {
     let mut b = SceneBuilder::new();
     let grey = matt(&mut b, albedo);
     // Both sides emit, of which only the inner one can be seen.
-    b.surface(SurfaceDef { shape: ball([0.0; 3], 1.0), material: grey, emission: Some((le, Sides::Two)) });
+    b.surface(SurfaceDef { shape: ball([0.0; 3], 1.0), material: grey, emission: Some((le.into(), Sides::Two)) });
     b.camera(eye(Vec3::new(0.3, 0.1, -0.2), Vec3::Z, 60.0));
     b.build().expect("a scene")
 }
@@ -135,7 +137,7 @@ pub(crate) fn furnace_box(le: Rgb, albedo: Rgb) -> Scene {
     let mut b = SceneBuilder::new();
     let grey = matt(&mut b, albedo);
     for shape in walls() {
-        b.surface(SurfaceDef { shape, material: grey, emission: Some((le, Sides::One)) });
+        b.surface(SurfaceDef { shape, material: grey, emission: Some((le.into(), Sides::One)) });
     }
     b.camera(eye(Vec3::new(0.3, 0.1, -0.9), Vec3::Z, 80.0));
     b.build().expect("a scene")
@@ -163,7 +165,7 @@ pub(crate) fn measure(scene: &Scene, integrator: &dyn Integrator, size: u32, bat
     let mut sums = vec![(DVec3::ZERO, DVec3::ZERO); w * w];
     for seed in 0..batches {
         let budget = Budget { passes: Some(passes), time: None };
-        let settings = Settings { spec: spec(size), seed: seed + 100, budget };
+        let settings = Settings { spec: spec(size), seed: seed + 100, color: ColorMode::Rgb, budget };
         let film = render(scene, integrator, &settings, |_, _| ControlFlow::Continue(()));
         let mut blocks = vec![DVec3::ZERO; w * w];
         for (i, p) in film.mean().iter().enumerate() {

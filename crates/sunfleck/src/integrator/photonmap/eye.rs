@@ -7,6 +7,7 @@ use crate::{
     bsdf::Transport,
     film::Counts,
     integrator::path::direct,
+    photon::CameraEnd,
     sampler::Sampler,
     scene::{Interaction, World},
     spectrum::Spectrum,
@@ -48,11 +49,11 @@ impl<'p> Eye<'p> {
 }
 
 impl Lookups<'_> {
-    fn caustic(&mut self, at: &Interaction, settings: &PhotonMapper, most: u32) -> Spectrum {
-        self.caustic.radiance(at, settings.kernel, most)
+    fn caustic(&mut self, at: &Interaction, settings: &PhotonMapper, end: CameraEnd) -> Spectrum {
+        self.caustic.radiance(at, settings.kernel, end)
     }
-    fn indirect(&mut self, at: &Interaction, settings: &PhotonMapper, most: u32) -> Spectrum {
-        self.indirect.radiance(at, settings.kernel, most)
+    fn indirect(&mut self, at: &Interaction, settings: &PhotonMapper, end: CameraEnd) -> Spectrum {
+        self.indirect.radiance(at, settings.kernel, end)
     }
 }
 
@@ -72,12 +73,13 @@ impl Visit for CameraWalk<'_, '_> {
         let Some(most) = settings.limits.scatterings.checked_sub(a.scatterings + 1) else { return Step::Stop };
         if a.at.is_connectible() {
             self.rays += 1;
-            let near = direct(world, a.at, u_light, u, |_, _| 1.0) + seen.caustic(a.at, settings, most);
+            let end = CameraEnd { most, dispersed: a.dispersed };
+            let near = direct(world, a.at, u_light, u, |_, _| 1.0) + seen.caustic(a.at, settings, end);
             self.sum += a.beta * near;
             let indirect = if settings.final_gather > 0 {
                 self.final_gather(a, most, sampler)
             } else {
-                seen.indirect(a.at, settings, most)
+                seen.indirect(a.at, settings, end)
             };
             self.sum += a.beta * indirect;
         }
@@ -106,7 +108,8 @@ impl CameraWalk<'_, '_> {
             let (u_lobe, u) = lattice(i, n, shift);
             // Delta lobes are part of the camera path.
             let Some(s) = a.at.sample(u_lobe, u, Transport::Radiance).filter(|s| !s.delta) else { continue };
-            let start = Start { ray: a.at.spawn(s.wi), beta: s.weight, mode: Transport::Radiance };
+            let start =
+                Start { ray: a.at.spawn(s.wi), beta: s.weight, mode: Transport::Radiance, dispersed: a.dispersed };
             walker.rays += walk(world, &start, &limits, sampler, &mut walker);
         }
         let (sum, rays) = (walker.sum, walker.rays);
@@ -143,10 +146,11 @@ impl Visit for GatherWalk<'_, '_> {
         if a.at.is_connectible() {
             let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
             self.rays += 1;
+            let end = CameraEnd { most, dispersed: a.dispersed };
             self.sum += a.beta
                 * (direct(self.world, a.at, u_light, u, |_, _| 1.0)
-                    + self.lookups.caustic(a.at, self.settings, most)
-                    + self.lookups.indirect(a.at, self.settings, most));
+                    + self.lookups.caustic(a.at, self.settings, end)
+                    + self.lookups.indirect(a.at, self.settings, end));
         }
         Step::OnIfDelta
     }

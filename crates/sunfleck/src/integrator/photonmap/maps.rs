@@ -2,7 +2,10 @@
 use super::PhotonMapper;
 use crate::{
     film::Counts,
-    photon::{Disc, Keep, Kernel, NearestMap, NearestQuery, RadiusMap, Shower, Source, gather_nearest, gather_within},
+    photon::{
+        CameraEnd, Disc, Keep, Kernel, NearestMap, NearestQuery, RadiusMap, Shower, Source, gather_nearest,
+        gather_within,
+    },
     sampler::Domain,
     scene::{Interaction, World},
     spectrum::Spectrum,
@@ -72,12 +75,12 @@ impl Map {
 }
 
 impl Lookup<'_> {
-    /// Radiance toward `at.wo` from the photons around `at` that were scattered at most `most` times.
+    /// Radiance toward `at.wo` from the photons around `at`, where the camera path `end`s.
     #[inline]
-    pub(super) fn radiance(&mut self, at: &Interaction, kernel: Kernel, most: u32) -> Spectrum {
+    pub(super) fn radiance(&mut self, at: &Interaction, kernel: Kernel, end: CameraEnd) -> Spectrum {
         match self {
-            Self::Nearest(map, query) => gather_nearest(map, at, query, kernel, most),
-            Self::Within(map, radius) => gather_within(map, at, Disc { radius: *radius, kernel }, most),
+            Self::Nearest(map, query) => gather_nearest(map, at, query, kernel, end),
+            Self::Within(map, radius) => gather_within(map, at, Disc { radius: *radius, kernel }, end),
         }
     }
 }
