@@ -90,8 +90,8 @@ impl Visit for Look<'_> {
     }
 
     fn escape(&mut self, e: &Escape) {
-        for (le, _) in self.world.escaped(e.ray.o, e.ray.d) {
-            self.sum += e.beta * le;
+        for sky in self.world.escaped(e.ray.o, e.ray.d) {
+            self.sum += e.beta * sky.le;
         }
     }
 }

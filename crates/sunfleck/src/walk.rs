@@ -5,7 +5,7 @@ use crate::{
     bsdf::Transport,
     math::Ray,
     sampler::Sampler,
-    scene::{Interaction, World},
+    scene::{Interaction, Scattered, World},
     spectrum::Spectrum,
 };
 
@@ -78,6 +78,8 @@ pub enum Step {
 pub trait Visit {
     /// A surface was reached. Draws from `sampler` come before those for scattering.
     fn surface(&mut self, arrival: &Arrival, sampler: &mut Sampler) -> Step;
+    /// The walk goes on from `at`, where it was last seen: roulette spared it.
+    fn scatter(&mut self, _at: &Interaction, _s: &Scattered) {}
     /// The walk left the scene, and ends.
     fn escape(&mut self, _: &Escape) {}
 }
@@ -141,6 +143,7 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         } else {
             beta = next;
         }
+        visitor.scatter(&at, &s);
         (pdf, delta) = (s.pdf, s.delta);
         all_delta &= s.delta;
         ray = at.spawn(s.wi);

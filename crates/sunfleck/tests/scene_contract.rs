@@ -5,7 +5,7 @@ use sunfleck::{
     light::{AreaLight, DirectionalLight, EnvironmentLight, Light, PointLight, Sides},
     math::{Ray, warp::square_to_sphere},
     sampler::{Domain, Sampler},
-    scene::{Interaction, MaterialId, ObjectId, Scene, SceneBuilder, SurfaceDef, TextureId},
+    scene::{Interaction, MaterialId, ObjectId, Scene, SceneBuilder, Sky, SurfaceDef, TextureId},
     shape::{Mesh, Parallelogram, Shape, Sphere},
     spectrum::{Rgb, Spectrum, Wavelengths},
 };
@@ -272,14 +272,14 @@ fn what_leaves_the_scene_is_found_with_the_density_of_its_connections() {
     let scene = b.build().unwrap();
     let world = scene.world(RGB, 0.0);
     let (mut matched, mut escaped) = (0, world.escaped(Vec3::ZERO, Vec3::X));
-    assert_eq!(escaped.next().unwrap().0, Spectrum::emission(Rgb::new(1.0, 2.0, 3.0), RGB));
+    assert_eq!(escaped.next().unwrap().le, Spectrum::emission(Rgb::new(1.0, 2.0, 3.0), RGB));
     assert!(escaped.next().is_none(), "no ray meets a point light");
     for i in 0..100 {
         let s = &mut sampler(i);
         let d = world.sample_direct(Vec3::ZERO, s.next_1d(), s.next_2d()).unwrap();
         if !d.li.delta {
             matched += 1;
-            let (le, pdf) = world.escaped(Vec3::ZERO, d.li.wi).next().unwrap();
+            let Sky { le, pdf_direct: pdf, .. } = world.escaped(Vec3::ZERO, d.li.wi).next().unwrap();
             assert!(le == d.li.li && (pdf / d.li.pdf - 1.0).abs() < 1e-5);
         }
     }

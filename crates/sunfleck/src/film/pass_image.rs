@@ -60,8 +60,8 @@ impl PassImage {
         self.pixels.fill(Rgb::ZERO);
         self.counts = Counts::default();
     }
-    /// Computes every pixel with `render(x, y)`, rows in parallel. A non-finite value counts as black: one broken path
-    /// must not spoil a pixel for good.
+    /// Adds `render(x, y)` to every pixel, rows in parallel. A non-finite value counts as black: one broken path must not
+    /// spoil a pixel for good.
     pub fn fill(&mut self, render: impl Fn(u32, u32, &mut Counts) -> Rgb + Sync) {
         self.fill_with(|| (), |(), x, y, counts| render(x, y, counts));
     }
@@ -77,7 +77,9 @@ impl PassImage {
             let (mut counts, mut scratch) = (Counts::default(), scratch());
             for (x, pixel) in row.iter_mut().enumerate() {
                 let value = render(&mut scratch, x as u32, y as u32, &mut counts);
-                *pixel = if value.is_finite() { value } else { Rgb::ZERO };
+                if value.is_finite() {
+                    *pixel += value;
+                }
             }
             counts
         };

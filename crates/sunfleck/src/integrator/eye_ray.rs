@@ -9,9 +9,12 @@ use crate::{
     spectrum::Spectrum,
     walk::Start,
 };
+use glam::Vec2;
 
 /// A camera ray and the stream of numbers that goes on with its path.
 pub(super) struct EyeRay {
+    /// Place on the picture.
+    pub(super) raster: Vec2,
     /// Ray and solid angle.
     pub(super) camera: CameraRay,
     /// The path's numbers; two pairs are drawn.
@@ -26,7 +29,7 @@ impl EyeRay {
         let mut sampler = Sampler::new(pass.seed, Domain::Camera, sample, pixel);
         let raster = spec.raster(x, y, sampler.next_2d());
         let camera = world.camera().ray(raster, sampler.next_2d());
-        Self { camera, sampler }
+        Self { raster, camera, sampler }
     }
     /// The beginning of a camera walk.
     #[inline]

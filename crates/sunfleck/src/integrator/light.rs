@@ -73,7 +73,7 @@ fn lights_seen_directly(world: &World, pass: &Pass, image: &mut PassImage) {
         counts.rays += 1;
         let le = match world.intersect(&ray) {
             Some(at) => world.emitted(&at),
-            None => world.escaped(ray.o, ray.d).fold(Spectrum::BLACK, |sum, (le, _)| sum + le),
+            None => world.escaped(ray.o, ray.d).fold(Spectrum::BLACK, |sum, sky| sum + sky.le),
         };
         le.to_rgb(pass.lambda)
     });

@@ -2,6 +2,8 @@
 //!
 //! To add one: write `integrator/<name>.rs` with its settings, an `ENTRY` and the two traits below, and add its `mod` line
 //! and its entry to [`REGISTRY`]; command line and help run over that list.
+mod bdpt;
+pub mod engine;
 mod eye_ray;
 mod light;
 mod params;
@@ -9,6 +11,8 @@ mod path;
 mod photonmap;
 mod ppm;
 mod raycast;
+mod unified;
+mod vcm;
 
 pub use light::LightTracer;
 pub use params::{ParamError, ParamInfo, Params};
@@ -79,7 +83,8 @@ pub struct Entry {
 }
 
 /// Every algorithm.
-pub const REGISTRY: &[Entry] = &[raycast::ENTRY, path::ENTRY, light::ENTRY, photonmap::ENTRY, ppm::ENTRY];
+pub const REGISTRY: &[Entry] =
+    &[raycast::ENTRY, path::ENTRY, light::ENTRY, bdpt::ENTRY, photonmap::ENTRY, ppm::ENTRY, vcm::ENTRY, unified::ENTRY];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

@@ -4,7 +4,7 @@ use crate::{
     bsdf::Transport,
     film::{Counts, FilmSpec, PassImage},
     sampler::Sampler,
-    scene::{Interaction, Scene, World},
+    scene::{Interaction, Scene, Sky, World},
     spectrum::Spectrum,
     walk::{Arrival, Escape, Limits, Start, Step, Visit, walk},
 };
@@ -85,8 +85,8 @@ impl Visit for Collect<'_> {
     }
     #[inline]
     fn escape(&mut self, e: &Escape) {
-        for (le, pdf) in self.world.escaped(self.from, e.ray.d) {
-            self.sum += e.beta * le * if e.delta { 1.0 } else { power_heuristic(e.pdf, pdf) };
+        for Sky { le, pdf_direct, .. } in self.world.escaped(self.from, e.ray.d) {
+            self.sum += e.beta * le * if e.delta { 1.0 } else { power_heuristic(e.pdf, pdf_direct) };
         }
     }
 }

@@ -20,7 +20,7 @@ use crate::{
         CameraEnd, Disc, Keep, Kernel, RadiusMap, Reach, Schedule, Shower, Source, gather_within, pixel_angle, survey,
     },
     sampler::{Domain, Sampler},
-    scene::{Scene, World},
+    scene::{Scene, Sky, World},
     spectrum::Spectrum,
     walk::{Arrival, Escape, Limits, Step, Visit, walk},
 };
@@ -159,7 +159,7 @@ impl Prepared<'_> {
         };
         let catch = shower.shoot(world, &self.source);
         image.counts += catch.counts;
-        RadiusMap::new(&catch, self.reach.typical() * shrink)
+        RadiusMap::new(&catch.positions, &catch.photons, self.reach.typical() * shrink)
     }
 }
 
@@ -209,8 +209,8 @@ impl Visit for Look<'_> {
     }
     #[inline]
     fn escape(&mut self, e: &Escape) {
-        for (le, pdf_light) in self.world.escaped(self.gathered_at, e.ray.d) {
-            self.sum += e.beta * le * if e.delta { 1.0 } else { power_heuristic(e.pdf, pdf_light) };
+        for Sky { le, pdf_direct, .. } in self.world.escaped(self.gathered_at, e.ray.d) {
+            self.sum += e.beta * le * if e.delta { 1.0 } else { power_heuristic(e.pdf, pdf_direct) };
         }
     }
 }

@@ -1,5 +1,5 @@
 //! A surface that emits the same radiance in all directions of one side, or of both.
-use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
+use super::{Emitter, EmitterHit, LeOrigin, LeSample, LiSample, LightEnd, Surroundings};
 use crate::{
     math::{Frame, warp::square_to_cosine_hemisphere},
     shape::{AreaSample, Shape},
@@ -105,6 +105,7 @@ impl Emitter for AreaLight {
             pdf_area: 1.0 / self.shape.area(),
             pdf_dir: prob * cos * FRAC_1_PI,
             cos,
+            origin: LeOrigin::Surface(EmitterHit { p: q.p, ng: q.ng }),
         })
     }
     #[inline]

@@ -1,5 +1,5 @@
 //! Light from infinitely far away in one direction: the sun without its disk.
-use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
+use super::{Emitter, EmitterHit, LeOrigin, LeSample, LiSample, LightEnd, Surroundings};
 use crate::spectrum::{Illuminant, Rgb};
 use glam::{Vec2, Vec3};
 
@@ -40,6 +40,7 @@ impl Emitter for DirectionalLight {
             pdf_area: 1.0 / around.disk_area(),
             pdf_dir: 1.0,
             cos: 1.0,
+            origin: LeOrigin::Infinite,
         })
     }
     /// `d` is taken to be the direction of the light: no other is asked for.

@@ -1,5 +1,5 @@
 //! Light from all around: a colour, or a panorama that surrounds the scene at infinity.
-use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings, panorama::Panorama};
+use super::{Emitter, EmitterHit, LeOrigin, LeSample, LiSample, LightEnd, Surroundings, panorama::Panorama};
 use crate::{
     math::warp::square_to_sphere,
     spectrum::{Illuminant, Rgb, Spectrum, Wavelengths},
@@ -106,7 +106,14 @@ impl Emitter for EnvironmentLight {
         let (from, pdf_dir) = self.sample(u_dir);
         let le = self.arriving(from, around.lambda);
         let ray = around.ray_from_outside(-from, u_area);
-        (!le.is_black()).then(|| LeSample { ray, le, pdf_area: 1.0 / around.disk_area(), pdf_dir, cos: 1.0 })
+        (!le.is_black()).then(|| LeSample {
+            ray,
+            le,
+            pdf_area: 1.0 / around.disk_area(),
+            pdf_dir,
+            cos: 1.0,
+            origin: LeOrigin::Infinite,
+        })
     }
     #[inline]
     fn pdf_le(&self, hit: Option<&EmitterHit>, d: Vec3, around: &Surroundings) -> (f32, f32) {

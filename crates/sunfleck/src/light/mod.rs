@@ -95,6 +95,19 @@ pub struct LeSample {
     pub pdf_dir: f32,
     /// |cos| at the emitting surface; 1 where there is none.
     pub cos: f32,
+    /// What was left.
+    pub origin: LeOrigin,
+}
+
+/// What an emitted ray leaves.
+#[derive(Clone, Copy, Debug)]
+pub enum LeOrigin {
+    /// An emitting surface.
+    Surface(EmitterHit),
+    /// A point without extent.
+    Point,
+    /// The space outside the scene.
+    Infinite,
 }
 
 impl LeSample {

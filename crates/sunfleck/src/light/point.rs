@@ -1,5 +1,5 @@
 //! A light without extent that shines evenly in all directions.
-use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
+use super::{Emitter, EmitterHit, LeOrigin, LeSample, LiSample, LightEnd, Surroundings};
 use crate::{
     math::{Ray, warp::square_to_sphere},
     spectrum::{Illuminant, Rgb},
@@ -35,7 +35,7 @@ impl Emitter for PointLight {
     fn sample_le(&self, _: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample> {
         let ray = Ray { o: self.p, d: square_to_sphere(u_dir), tmin: 0.0, tmax: f32::INFINITY };
         let le = self.intensity.at(around.lambda);
-        Some(LeSample { ray, le, pdf_area: 1.0, pdf_dir: 0.25 / PI, cos: 1.0 })
+        Some(LeSample { ray, le, pdf_area: 1.0, pdf_dir: 0.25 / PI, cos: 1.0, origin: LeOrigin::Point })
     }
     #[inline]
     fn pdf_le(&self, hit: Option<&EmitterHit>, _: Vec3, _: &Surroundings) -> (f32, f32) {

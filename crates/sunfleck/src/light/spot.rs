@@ -1,5 +1,5 @@
 //! A light without extent that shines into a cone with a soft edge.
-use super::{Emitter, EmitterHit, LeSample, LiSample, LightEnd, Surroundings};
+use super::{Emitter, EmitterHit, LeOrigin, LeSample, LiSample, LightEnd, Surroundings};
 use crate::{
     math::{Frame, Local, Ray},
     spectrum::{Illuminant, Rgb},
@@ -149,6 +149,7 @@ impl Emitter for SpotLight {
             pdf_area: 1.0,
             pdf_dir: falloff / self.solid_angle(),
             cos: 1.0,
+            origin: LeOrigin::Point,
         })
     }
     #[inline]

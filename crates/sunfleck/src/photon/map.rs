@@ -5,22 +5,23 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 /// Finds all photons within a radius.
-pub struct RadiusMap {
+pub struct RadiusMap<P = Photon> {
     grid: PointGrid,
     /// In the order of the grid's slots, so that neighbours in space are neighbours in memory.
-    photons: Vec<Photon>,
+    photons: Vec<P>,
 }
 
-impl RadiusMap {
-    /// Sorts a catch for queries of about `radius` (world units, positive and finite); others work, but slower.
-    pub fn new(catch: &Catch, radius: f32) -> Self {
-        let grid = PointGrid::build(&catch.positions, 1.5 * radius);
-        let photons = grid.order().par_iter().map(|&i| catch.photons[i as usize]).collect();
+impl<P: Copy + Send + Sync> RadiusMap<P> {
+    /// Sorts `photons` at `positions` for queries of about `radius` (world units, positive and finite); others work, but
+    /// slower.
+    pub fn new(positions: &[Vec3], photons: &[P], radius: f32) -> Self {
+        let grid = PointGrid::build(positions, 1.5 * radius);
+        let photons = grid.order().par_iter().map(|&i| photons[i as usize]).collect();
         Self { grid, photons }
     }
     /// Calls `visit(photon, d2)` for every photon at squared distance `d2 <= r·r` from `p`.
     #[inline]
-    pub fn within(&self, p: Vec3, r: f32, mut visit: impl FnMut(&Photon, f32)) {
+    pub fn within(&self, p: Vec3, r: f32, mut visit: impl FnMut(&P, f32)) {
         self.grid.within_slots(p, r, |slot, d2| visit(&self.photons[slot as usize], d2));
     }
     /// Photons held.

@@ -13,11 +13,13 @@
 //! - [`deposit`]: which arrivals of a path are kept, and a [`Shower`] of many paths, the same for any number of threads;
 //! - [`map`]: photons beside an index of their positions, by radius or by number;
 //! - [`kernel`], [`gather`]: the density estimate;
-//! - [`mod@survey`], [`radius`]: what the camera sees of the scene, and from it the first radius and how it shrinks.
+//! - [`mod@survey`], [`radii`], [`radius`]: what the camera sees of the scene, and from it the first radius and how it
+//!   shrinks.
 pub mod deposit;
 pub mod gather;
 pub mod kernel;
 pub mod map;
+pub mod radii;
 pub mod radius;
 pub mod source;
 pub mod survey;
@@ -26,6 +28,7 @@ pub use deposit::{Catch, Keep, Photon, Shower};
 pub use gather::{CameraEnd, Disc, NearestQuery, gather_nearest, gather_within};
 pub use kernel::Kernel;
 pub use map::{NearestMap, RadiusMap};
+pub use radii::Radii;
 pub use radius::{Reach, Schedule};
 pub use source::{Emission, Source};
 pub use survey::{Sighting, pixel_angle, survey};

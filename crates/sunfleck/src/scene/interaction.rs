@@ -93,6 +93,16 @@ impl Interaction {
         let cos_g = self.ng.dot(wi);
         if cos_g == 0.0 { 0.0 } else { (self.frame.n.dot(wi) / cos_g).abs() }
     }
+    /// Cosine (not negative) of `w` with the shading normal.
+    #[inline]
+    pub fn shading_cos(&self, w: Vec3) -> f32 {
+        self.frame.n.dot(w).abs()
+    }
+    /// Cosine (not negative) of `w` with the true surface's normal.
+    #[inline]
+    pub fn true_cos(&self, w: Vec3) -> f32 {
+        self.ng.dot(w).abs()
+    }
     /// Whether `wi` lies on the eye's side of the surface, by the shading normal and by the true one.
     #[inline]
     pub fn is_on_near_side(&self, wi: Vec3) -> bool {
@@ -103,6 +113,11 @@ impl Interaction {
     #[inline]
     pub fn pdf(&self, wi: Vec3) -> f32 {
         self.bsdf.pdf(self.frame.to_local(self.wo), self.frame.to_local(wi))
+    }
+    /// Density (1/sr) with which a path that comes from `wi` would be sent to `wo`: [`Interaction::pdf`] the other way.
+    #[inline]
+    pub fn pdf_back(&self, wi: Vec3) -> f32 {
+        self.bsdf.pdf(self.frame.to_local(wi), self.frame.to_local(self.wo))
     }
     /// Draws a direction to go on in. `None` when nothing is carried on.
     #[inline]
@@ -148,6 +163,11 @@ impl Interaction {
             LightEnd::Point(p) => self.spawn_to(wi, *p),
             LightEnd::Surface(q) => self.spawn_to(wi, offset_origin(q.p, q.p_error, q.ng, -wi)),
         }
+    }
+    /// A shadow ray toward another surface in direction `wi`, which ends short of it.
+    #[inline]
+    pub fn spawn_to_surface(&self, wi: Vec3, to: &Self) -> Ray {
+        self.spawn_to(wi, offset_origin(to.p, to.p_error, to.ng, -wi))
     }
     /// A shadow ray toward the point `to` in direction `wi`, which ends short of it.
     #[inline]

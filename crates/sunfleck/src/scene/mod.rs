@@ -9,7 +9,7 @@ mod world;
 
 pub use build::{Quality, SceneBuilder, SceneError, SurfaceDef};
 pub use interaction::{Interaction, Scattered};
-pub use world::{DirectSample, World};
+pub use world::{DirectSample, Sky, World};
 
 use crate::{
     bsdf::Material,

@@ -32,6 +32,17 @@ pub struct DirectSample {
     pub light: LightId,
 }
 
+/// A light outside the scene, seen by a ray that leaves it.
+#[derive(Clone, Copy, Debug)]
+pub struct Sky {
+    /// Which light.
+    pub light: LightId,
+    /// Radiance.
+    pub le: Spectrum,
+    /// Density (1/sr, choice of the light included) with which [`World::sample_direct`] finds it.
+    pub pdf_direct: f32,
+}
+
 impl<'s> World<'s> {
     pub(super) fn new(scene: &'s Scene, lambda: Wavelengths, time: f32) -> Self {
         let around = scene.surroundings(lambda);
@@ -130,13 +141,13 @@ impl<'s> World<'s> {
     pub fn pdf_direct(&self, from: Vec3, wi: Vec3, at: &Interaction) -> f32 {
         at.light.map_or(0.0, |id| self.light(id).pdf_li(from, wi, Some(&at.emitter_hit())) * self.light_prob(id))
     }
-    /// Radiance of what a ray in direction `d` sees outside the scene, light by light, with the density (1/sr, choice
-    /// included) with which [`World::sample_direct`] finds it.
+    /// What a ray in direction `d` sees outside the scene, light by light.
     #[inline]
-    pub fn escaped(&self, from: Vec3, d: Vec3) -> impl Iterator<Item = (Spectrum, f32)> + '_ {
+    pub fn escaped(&self, from: Vec3, d: Vec3) -> impl Iterator<Item = Sky> + '_ {
         self.moment.light_table.infinite().iter().map(move |&id| {
             let light = self.light(id);
-            (light.le_escaped(d, self.around.lambda), light.pdf_li(from, d, None) * self.light_prob(id))
+            let pdf_direct = light.pdf_li(from, d, None) * self.light_prob(id);
+            Sky { light: id, le: light.le_escaped(d, self.around.lambda), pdf_direct }
         })
     }
 }

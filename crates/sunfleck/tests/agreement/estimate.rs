@@ -80,7 +80,8 @@ pub(crate) fn estimate(scene: &Scene, name: &'static str, passes: u64) -> Estima
 /// Few pixels need more photons and smaller kernels than a whole picture would.
 fn settings(name: &str) -> &'static [(&'static str, &'static str)] {
     match name {
-        "ppm" => &[("photons", "4000"), ("radius", "0.05")],
+        "ppm" | "vcm" | "unified" => &[("photons", "4000"), ("radius", "0.05")],
+        "bdpt" => &[("photons", "1000")],
         "photonmap" => &[("photons", "4000"), ("final-gather", "1"), ("radius", "0.05")],
         _ => &[],
     }

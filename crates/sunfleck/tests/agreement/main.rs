@@ -18,7 +18,7 @@ const MEAN: f64 = 0.003;
 
 /// How much of a difference an algorithm may have by itself.
 fn bias(name: &str) -> f64 {
-    if matches!(name, "ppm" | "photonmap") { KERNEL_BIAS } else { 0.0 }
+    if matches!(name, "ppm" | "photonmap" | "vcm" | "unified") { KERNEL_BIAS } else { 0.0 }
 }
 
 fn check(scene: &TinyScene, a: &Estimate, b: &Estimate) -> Result<(), String> {

@@ -21,9 +21,11 @@ pub(crate) struct TinyScene {
 }
 
 /// Every algorithm sees everything.
-const ALL: &[(&str, u64)] = &[("path", 400), ("light", 400), ("ppm", 150), ("photonmap", 150)];
+const ALL: &[(&str, u64)] =
+    &[("path", 400), ("light", 400), ("ppm", 150), ("photonmap", 150), ("bdpt", 400), ("vcm", 150), ("unified", 150)];
 /// Mirrors and glass before the camera: blind for `light`.
-const NOT_LIGHT: &[(&str, u64)] = &[("path", 1600), ("ppm", 150), ("photonmap", 150)];
+const NOT_LIGHT: &[(&str, u64)] =
+    &[("path", 1600), ("ppm", 150), ("photonmap", 150), ("bdpt", 1600), ("vcm", 150), ("unified", 150)];
 
 pub(crate) const SCENES: &[TinyScene] = &[
     TinyScene { name: "diffuse_room", algorithms: ALL, build: diffuse_room },

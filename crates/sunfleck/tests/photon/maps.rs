@@ -155,7 +155,7 @@ fn both_maps_find_what_a_plain_search_finds() {
     for (i, p) in catch.photons.iter_mut().enumerate() {
         p.scatterings = i as u16;
     }
-    let grid = RadiusMap::new(&catch, 0.05);
+    let grid = RadiusMap::new(&catch.positions, &catch.photons, 0.05);
     let tree = NearestMap::new(catch.clone());
     let mut found = Neighbours::new();
     let places =
@@ -220,7 +220,8 @@ fn the_nearest_estimate_of_an_even_density_is_right_on_average() {
 #[test]
 fn the_fixed_estimate_of_an_even_density_is_right() {
     let at = floor_at(0.1, -0.2);
-    let map = RadiusMap::new(&scattered_on_the_floor(1 << 18, 2), 0.1);
+    let catch = scattered_on_the_floor(1 << 18, 2);
+    let map = RadiusMap::new(&catch.positions, &catch.photons, 0.1);
     let want = (1 << 16) as f32 * std::f32::consts::FRAC_1_PI;
     for kernel in Kernel::ALL {
         for radius in [0.05, 0.1, 0.3] {
@@ -264,7 +265,7 @@ fn photons_from_behind_and_photons_scattered_too_often_do_not_count() {
     let disc = Disc { radius: 1.0, kernel: Kernel::Constant };
     let one = std::f32::consts::FRAC_1_PI * std::f32::consts::FRAC_1_PI;
     for (most, count) in [(0, 1.0), (2, 1.0), (3, 2.0)] {
-        let fixed = gather_within(&RadiusMap::new(&catch, 1.0), &at, disc, up_to(most)).max();
+        let fixed = gather_within(&RadiusMap::new(&catch.positions, &catch.photons, 1.0), &at, disc, up_to(most)).max();
         let map = NearestMap::new(catch.clone());
         let nearest = gather_nearest(&map, &at, &mut NearestQuery::new(5, 1.0), Kernel::Constant, up_to(most)).max();
         assert!((fixed - count * one).abs() < 1e-6 && (nearest - fixed).abs() < 1e-6, "{most}: {fixed} {nearest}");

@@ -9,7 +9,7 @@ use crate::{
     integrator::path::direct,
     photon::CameraEnd,
     sampler::Sampler,
-    scene::{Interaction, World},
+    scene::{Interaction, Sky, World},
     spectrum::Spectrum,
     walk::{Arrival, Escape, Limits, Start, Step, Visit, walk},
 };
@@ -87,7 +87,7 @@ impl Visit for CameraWalk<'_, '_> {
     }
     #[inline]
     fn escape(&mut self, e: &Escape) {
-        for (le, _) in self.eye.world.escaped(e.ray.o, e.ray.d) {
+        for Sky { le, .. } in self.eye.world.escaped(e.ray.o, e.ray.d) {
             self.sum += e.beta * le;
         }
     }

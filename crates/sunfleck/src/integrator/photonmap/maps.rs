@@ -44,7 +44,7 @@ impl Maps {
             let catch = Shower { seed, domain, pass, first, paths, keep, limits }.shoot(world, &Source::plain());
             *counts += catch.counts;
             if let Some(radius) = settings.radius {
-                return Map::Within(RadiusMap::new(&catch, radius), radius);
+                return Map::Within(RadiusMap::new(&catch.positions, &catch.photons, radius), radius);
             }
             let map = NearestMap::new(catch);
             let spacing = || map.spacing(settings.nearest).map(|r| MOST * r);

@@ -1,0 +1,260 @@
+//! Camera subpaths: each sampler that is on, at every vertex.
+use super::{
+    gather::gather,
+    light::{Photon, Subpaths},
+    mis::{Leg, Rule, Sums},
+    techniques::Technique,
+    track::Track,
+    weights::Joint,
+};
+use crate::{
+    bsdf::Transport,
+    film::Counts,
+    light::{Emitter, EmitterHit, LightEnd},
+    photon::{Disc, Kernel, Radii, RadiusMap, Source},
+    sampler::Sampler,
+    scene::{Interaction, Scattered, World},
+    spectrum::Spectrum,
+    walk::{Arrival, Escape, Limits, Step, Visit},
+};
+use glam::Vec3;
+
+/// What all camera paths of a pass share.
+pub(super) struct Eye<'w> {
+    pub(super) world: &'w World<'w>,
+    pub(super) rule: Rule,
+    pub(super) source: &'w Source,
+    pub(super) limits: Limits,
+    pub(super) kernel: Kernel,
+    /// Photons, if they are gathered.
+    pub(super) map: Option<RadiusMap<Photon>>,
+    pub(super) subpaths: Subpaths,
+    pub(super) radii: &'w Radii,
+    /// Radius of this pass over the first.
+    pub(super) shrink: f32,
+    /// Set to see one sampler alone.
+    pub(super) only: Option<Only>,
+}
+
+/// One sampler seen alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Only {
+    pub(super) technique: Technique,
+    /// As it counts in the picture; otherwise as if it were the only one.
+    pub(super) weighted: bool,
+}
+
+/// Adds up what one camera path finds.
+pub(super) struct Look<'w> {
+    eye: &'w Eye<'w>,
+    /// Density (1/sr) of the camera's first direction, one path a pixel.
+    pdf_camera: f32,
+    radius: f32,
+    /// [`Rule::eta`] of the radius.
+    eta: f32,
+    /// Which light path is connected to; drawn once.
+    partner: usize,
+    track: Track,
+    /// Where the current leg began.
+    from: Vec3,
+    sum: Spectrum,
+    rays: u64,
+    counts: &'w mut Counts,
+}
+
+impl<'w> Look<'w> {
+    pub(super) fn new(eye: &'w Eye<'w>, start: EyeStart, counts: &'w mut Counts) -> Self {
+        let radius = eye.shrink * eye.radii.at(start.raster);
+        Self {
+            eye,
+            pdf_camera: start.pdf,
+            radius,
+            eta: eye.rule.eta(radius),
+            partner: start.partner,
+            track: Track::new(),
+            from: start.from,
+            sum: Spectrum::BLACK,
+            rays: 0,
+            counts,
+        }
+    }
+    /// What the path found; `rays` were traced by its walk.
+    #[inline]
+    pub(super) fn finish(self, rays: u64) -> Spectrum {
+        self.counts.rays += rays + self.rays;
+        self.sum
+    }
+    #[inline]
+    fn add(&mut self, technique: Technique, value: Spectrum, weight: f32) {
+        match self.eye.only {
+            None => self.sum += value * weight,
+            Some(o) if o.technique == technique => self.sum += value * if o.weighted { weight } else { 1.0 },
+            Some(_) => {}
+        }
+    }
+}
+
+/// How a camera path begins.
+#[derive(Clone, Copy)]
+pub(super) struct EyeStart {
+    /// Place on the picture.
+    pub(super) raster: glam::Vec2,
+    /// Point on the lens.
+    pub(super) from: Vec3,
+    /// Density (1/sr) of its direction, one path a pixel.
+    pub(super) pdf: f32,
+    /// Light path to connect to.
+    pub(super) partner: usize,
+}
+
+impl Visit for Look<'_> {
+    #[inline]
+    fn surface(&mut self, a: &Arrival, sampler: &mut Sampler) -> Step {
+        let eye = self.eye;
+        let leg = Leg::to(a.at);
+        let sums = if a.scatterings == 0 {
+            eye.rule.leave_camera(self.pdf_camera, leg.d2, leg.cos)
+        } else {
+            self.track.after(&eye.rule, leg)
+        };
+        self.meet(a, &sums);
+        // Drawn at every vertex, so that the dimensions of what follows do not depend on the material.
+        let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
+        let first_only = eye.rule.on.merge.at_first_only();
+        if first_only && !a.delta {
+            return Step::Stop;
+        }
+        self.track.sums = sums;
+        self.from = a.at.p;
+        if a.scatterings >= eye.limits.scatterings || !a.at.is_connectible() {
+            return Step::On;
+        }
+        if eye.rule.on.nee {
+            self.choose_light(a, &sums, u_light, u);
+        }
+        if eye.rule.on.connect {
+            self.connect(a, &sums);
+        }
+        if eye.map.is_some() {
+            self.gather(a, &sums);
+        }
+        if first_only && !eye.rule.on.nee { Step::OnIfDelta } else { Step::On }
+    }
+    #[inline]
+    fn scatter(&mut self, at: &Interaction, s: &Scattered) {
+        let rule = &self.eye.rule;
+        // Photons gathered at this vertex have been scattered since, unless the next is the light; `hit_weight` knows.
+        let merges = rule.merges(1) * self.track.sums.shared;
+        self.track.depart(at, s, merges, |_| 1.0);
+    }
+    #[inline]
+    fn escape(&mut self, e: &Escape) {
+        let eye = self.eye;
+        if !eye.rule.on.hit && e.scatterings > 0 {
+            return;
+        }
+        let sums = if e.scatterings == 0 { Sums::default() } else { self.track.after(&eye.rule, Leg::AWAY) };
+        for sky in eye.world.escaped(self.from, e.ray.d) {
+            let weight = if e.scatterings == 0 {
+                1.0
+            } else {
+                let direct = if e.delta { 0.0 } else { sky.pdf_direct / e.pdf };
+                let emitted = eye.source.pdf(eye.world, sky.light, None, self.from, -e.ray.d);
+                eye.rule.hit_weight(&sums, direct, emitted, self.eta)
+            };
+            self.add(Technique::Hit, e.beta * sky.le, weight);
+        }
+    }
+}
+
+impl Look<'_> {
+    /// The surface may be a light.
+    #[inline]
+    fn meet(&mut self, a: &Arrival, sums: &Sums) {
+        let eye = self.eye;
+        let le = eye.world.emitted(a.at);
+        // Lights seen directly are left to this sampler, whatever is on.
+        if le.is_black() || (!eye.rule.on.hit && a.scatterings > 0) {
+            return;
+        }
+        let weight = if a.scatterings == 0 {
+            1.0
+        } else {
+            let direct = if a.delta { 0.0 } else { eye.world.pdf_direct(self.from, -a.at.wo, a.at) / a.pdf };
+            let emitted =
+                a.at.light
+                    .map_or(0.0, |light| eye.source.pdf(eye.world, light, Some(&a.at.emitter_hit()), a.at.p, a.at.wo));
+            eye.rule.hit_weight(sums, direct, emitted, self.eta)
+        };
+        self.add(Technique::Hit, a.beta * le, weight);
+    }
+
+    /// Next-event estimation.
+    #[inline]
+    fn choose_light(&mut self, a: &Arrival, sums: &Sums, u_light: f32, u: glam::Vec2) {
+        let (world, at) = (self.eye.world, a.at);
+        let Some(d) = world.sample_direct(at.p, u_light, u) else { return };
+        let li = &d.li;
+        let f = at.f_cos(li.wi, Transport::Radiance);
+        if f.is_black() {
+            return;
+        }
+        self.rays += 1;
+        if world.occluded(&at.spawn_toward(li.wi, &li.end)) {
+            return;
+        }
+        let light = world.light(d.light);
+        // Per area at the vertex, over the choice of the light's point in the measure of the emission.
+        let (hit, to_emission) = match &li.end {
+            LightEnd::Infinite => (None, 1.0),
+            LightEnd::Point(p) => (None, p.distance_squared(at.p)),
+            LightEnd::Surface(q) => (Some(EmitterHit { p: q.p, ng: q.ng }), q.ng.dot(li.wi).abs()),
+        };
+        let emitted = self.eye.source.pdf(world, d.light, hit.as_ref(), at.p, -li.wi);
+        let emitted_over_pdf = emitted * at.true_cos(li.wi) / (li.pdf * to_emission);
+        let hit_over_pdf = if light.is_delta() { 0.0 } else { at.pdf(li.wi) / li.pdf };
+        let back = at.pdf_back(li.wi);
+        let weight = self.eye.rule.nee_weight(sums, hit_over_pdf, emitted_over_pdf, back, self.eta);
+        self.add(Technique::Nee, a.beta * f * li.li * (1.0 / li.pdf), weight);
+    }
+
+    /// Connections to the vertices of one light path.
+    #[inline]
+    fn connect(&mut self, a: &Arrival, sums: &Sums) {
+        let eye = self.eye;
+        for v in eye.subpaths.path(self.partner) {
+            if a.scatterings + v.scatterings + 2 > eye.limits.scatterings {
+                break;
+            }
+            let to = v.at.p - a.at.p;
+            let d2 = to.length_squared();
+            let Some(wi) = to.try_normalize() else { continue };
+            let f = a.at.f_cos(wi, Transport::Radiance) * v.at.f_cos(-wi, Transport::Flux);
+            if f.is_black() {
+                continue;
+            }
+            self.rays += 1;
+            if eye.world.occluded(&a.at.spawn_to_surface(wi, &v.at)) {
+                continue;
+            }
+            let light = Joint { sums: &v.sums, area: a.at.pdf(wi) * v.at.true_cos(wi) / d2, back: v.at.pdf_back(-wi) };
+            let camera = Joint { sums, area: v.at.pdf(-wi) * a.at.true_cos(wi) / d2, back: a.at.pdf_back(wi) };
+            let weight = eye.rule.connect_weight(&camera, &light, eye.rule.merges(v.scatterings), self.eta);
+            self.add(Technique::Connect, a.beta * f * v.flux * (1.0 / d2), weight);
+        }
+    }
+
+    /// Photons around the vertex.
+    #[inline]
+    fn gather(&mut self, a: &Arrival, sums: &Sums) {
+        let eye = self.eye;
+        let Some(map) = &eye.map else { return };
+        let Some(most) = eye.limits.scatterings.checked_sub(a.scatterings + 1) else { return };
+        let disc = Disc { radius: self.radius, kernel: eye.kernel };
+        let unweighted = eye.rule.on.merge.at_first_only() || eye.only.is_some_and(|o| !o.weighted);
+        let value = gather(map, a.at, disc, most, |photon, at| {
+            if unweighted { 1.0 } else { eye.rule.merge_weight(sums, &photon.sums, at, self.eta) }
+        });
+        self.add(Technique::Merge, a.beta * value, 1.0);
+    }
+}

@@ -1,0 +1,253 @@
+//! Light subpaths: what a pass knows of the light before the first camera ray.
+use super::{
+    camera::Only,
+    mis::{Leg, LightStart, Rule, Sums},
+    techniques::Technique,
+    track::Track,
+};
+use crate::{
+    bsdf::Transport,
+    camera::{CameraSample, Project},
+    film::{Counts, FilmSpec, PassImage, Splat},
+    integrator::Pass,
+    light::{Emitter, LeOrigin},
+    photon::{Emission, Radii, Source},
+    sampler::{Domain, Sampler},
+    scene::{Interaction, Scattered, World},
+    spectrum::Spectrum,
+    walk::{Arrival, Limits, Step, Visit, walk},
+};
+use glam::{Vec2, Vec3};
+use rayon::prelude::*;
+
+/// Light subpaths to walk.
+#[derive(Clone, Copy)]
+pub(super) struct Shower<'w> {
+    pub(super) world: &'w World<'w>,
+    pub(super) rule: Rule,
+    pub(super) source: &'w Source,
+    /// When whole paths end.
+    pub(super) limits: Limits,
+    pub(super) radii: &'w Radii,
+    /// Radius of this pass over the first.
+    pub(super) shrink: f32,
+    pub(super) pass: &'w Pass,
+    /// Number of the first path, and how many.
+    pub(super) first: u64,
+    pub(super) paths: u64,
+    pub(super) spec: FilmSpec,
+    /// Set to see one sampler alone.
+    pub(super) only: Option<Only>,
+}
+
+/// Flux on its way, kept for gathers. Its position is kept by the index that finds it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Photon {
+    /// Flux (W) that arrives, over the number of paths.
+    pub(super) flux: Spectrum,
+    /// Unit direction back to where it came from.
+    pub(super) wi: Vec3,
+    /// Scatterings since the light.
+    pub(super) scatterings: u32,
+    pub(super) sums: PhotonSums,
+}
+
+/// What a photon needs of [`Sums`].
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PhotonSums {
+    pub(super) vcm: f32,
+    pub(super) vc: f32,
+    pub(super) vm: f32,
+    pub(super) geometry: f32,
+}
+
+/// A vertex kept for connections.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightVertex {
+    pub(super) at: Interaction,
+    /// Flux (W) that arrives, as of one path.
+    pub(super) flux: Spectrum,
+    pub(super) scatterings: u32,
+    pub(super) sums: Sums,
+}
+
+/// All light subpaths of a pass.
+#[derive(Default)]
+pub(super) struct Subpaths {
+    pub(super) positions: Vec<Vec3>,
+    pub(super) photons: Vec<Photon>,
+    pub(super) vertices: Vec<LightVertex>,
+    /// End of each path's vertices.
+    ends: Vec<u32>,
+}
+
+impl Subpaths {
+    /// The vertices of path `i`.
+    #[inline]
+    pub(super) fn path(&self, i: usize) -> &[LightVertex] {
+        let from = if i == 0 { 0 } else { self.ends[i - 1] };
+        &self.vertices[from as usize..self.ends[i] as usize]
+    }
+}
+
+/// Light paths per task. Results are joined in path order, so any value gives the same.
+const CHUNK: u64 = 1024;
+
+impl Shower<'_> {
+    /// Walks all paths; splats connections to the lens into `image`.
+    pub(super) fn walk(&self, image: &mut PassImage) -> Subpaths {
+        let chunks: Vec<Chunk> = (0..self.paths.div_ceil(CHUNK))
+            .into_par_iter()
+            .map(|c| {
+                let mut chunk = Chunk::default();
+                for path in c * CHUNK..((c + 1) * CHUNK).min(self.paths) {
+                    self.trace(path, &mut chunk);
+                }
+                chunk
+            })
+            .collect();
+        join(chunks, image)
+    }
+
+    fn trace(&self, path: u64, out: &mut Chunk) {
+        let mut sampler = Sampler::new(self.pass.seed, Domain::Light, self.pass.index, self.first + path);
+        out.counts.emitted += 1;
+        if let Some(emission) = self.source.emit(self.world, &mut sampler) {
+            // The last scattering belongs to the camera's side.
+            let scatterings = self.limits.scatterings.saturating_sub(1);
+            let limits = Limits { scatterings, ..self.limits };
+            let start = emission.start;
+            let mut shine = Shine { shower: self, emission, track: Track::new(), merges: 0.0, out };
+            let rays = walk(self.world, &start, &limits, &mut sampler, &mut shine);
+            out.counts.rays += rays;
+        }
+        out.ends.push(out.vertices.len() as u32);
+    }
+}
+
+#[derive(Default)]
+struct Chunk {
+    positions: Vec<Vec3>,
+    photons: Vec<Photon>,
+    vertices: Vec<LightVertex>,
+    ends: Vec<u32>,
+    splats: Vec<Splat>,
+    counts: Counts,
+}
+
+fn join(chunks: Vec<Chunk>, image: &mut PassImage) -> Subpaths {
+    let sum = |f: fn(&Chunk) -> usize| chunks.iter().map(f).sum();
+    let mut all = Subpaths {
+        positions: Vec::with_capacity(sum(|c| c.positions.len())),
+        photons: Vec::with_capacity(sum(|c| c.photons.len())),
+        vertices: Vec::with_capacity(sum(|c| c.vertices.len())),
+        ends: Vec::with_capacity(sum(|c| c.ends.len())),
+    };
+    for c in chunks {
+        let before = all.vertices.len() as u32;
+        all.positions.extend_from_slice(&c.positions);
+        all.photons.extend_from_slice(&c.photons);
+        all.vertices.extend_from_slice(&c.vertices);
+        all.ends.extend(c.ends.iter().map(|e| before + e));
+        image.splat(&c.splats);
+        image.counts += c.counts;
+    }
+    image.counts.stored += (all.photons.len() + all.vertices.len()) as u64;
+    all
+}
+
+/// Leaves photons, vertices and splats behind.
+struct Shine<'w, 'o> {
+    shower: &'w Shower<'w>,
+    emission: Emission,
+    track: Track,
+    /// [`Rule::merges`] at the last vertex.
+    merges: f32,
+    out: &'o mut Chunk,
+}
+
+impl Visit for Shine<'_, '_> {
+    #[inline]
+    fn surface(&mut self, a: &Arrival, sampler: &mut Sampler) -> Step {
+        let rule = &self.shower.rule;
+        let sums = if a.scatterings == 0 { self.leave(a.at) } else { self.track.after(rule, Leg::to(a.at)) };
+        self.track.sums = sums;
+        self.merges = rule.merges(a.scatterings);
+        // Drawn at every vertex, so that what follows does not depend on the material.
+        let u_lens = if rule.on.light_image { sampler.next_2d() } else { glam::Vec2::ZERO };
+        if !a.at.is_connectible() || self.shower.limits.scatterings == 0 {
+            return Step::On;
+        }
+        if rule.on.merge.is_on() && (a.scatterings > 0 || rule.on.merge.of_direct()) {
+            self.deposit(a, &sums);
+        }
+        if rule.on.connect {
+            self.out.vertices.push(LightVertex { at: *a.at, flux: a.beta, scatterings: a.scatterings, sums });
+        }
+        if rule.on.light_image {
+            self.splat(a, &sums, u_lens);
+        }
+        Step::On
+    }
+    #[inline]
+    fn scatter(&mut self, at: &Interaction, s: &Scattered) {
+        let (rule, geometry) = (&self.shower.rule, self.track.sums.geometry);
+        self.track.depart(at, s, self.merges, |back| rule.sharing(back * geometry));
+    }
+}
+
+impl Shine<'_, '_> {
+    fn deposit(&mut self, a: &Arrival, s: &Sums) {
+        self.out.positions.push(a.at.p);
+        self.out.photons.push(Photon {
+            flux: a.beta / self.shower.paths as f32,
+            wi: a.at.wo,
+            scatterings: a.scatterings,
+            sums: PhotonSums { vcm: s.vcm, vc: s.vc, vm: s.vm(), geometry: s.geometry },
+        });
+    }
+
+    /// The sums at the first vertex.
+    fn leave(&self, at: &Interaction) -> Sums {
+        let world = self.shower.world;
+        let Emission { light, le, pdf, .. } = &self.emission;
+        let (light, prob) = (world.light(*light), world.light_prob(*light));
+        // Density of next-event estimation, in the measure of the emission.
+        let direct = match &le.origin {
+            LeOrigin::Surface(hit) => light.pdf_li(at.p, at.wo, Some(hit)) * le.cos,
+            LeOrigin::Infinite if !light.is_delta() => light.pdf_li(at.p, at.wo, None),
+            LeOrigin::Infinite => 1.0,
+            LeOrigin::Point => at.distance * at.distance,
+        };
+        self.shower.rule.leave_light(&LightStart {
+            direct: direct * prob,
+            emitted: *pdf,
+            cos_light: le.cos,
+            hittable: !light.is_delta(),
+            cos: at.true_cos(at.wo),
+        })
+    }
+
+    /// Connects the vertex to the lens.
+    fn splat(&mut self, a: &Arrival, s: &Sums, u_lens: Vec2) {
+        let shower = self.shower;
+        let Some(c) = shower.world.camera().sample_wi(a.at.p, u_lens) else { return };
+        let value = a.beta * a.at.f_cos(c.wi, Transport::Flux) * (c.importance / shower.paths as f32);
+        if value.is_black() || shower.only.is_some_and(|o| o.technique != Technique::LightImage) {
+            return;
+        }
+        self.out.counts.rays += 1;
+        if shower.world.occluded(&a.at.spawn_to(c.wi, c.p)) {
+            return;
+        }
+        let weight = if shower.only.is_some_and(|o| !o.weighted) { 1.0 } else { self.light_image_weight(a, s, &c) };
+        self.out.splats.push(Splat { raster: c.raster, value: (value * weight).to_rgb(shower.world.lambda()) });
+    }
+    fn light_image_weight(&self, a: &Arrival, s: &Sums, c: &CameraSample) -> f32 {
+        let shower = self.shower;
+        // `importance` is 1 / (solid angle per unit of raster area · squared distance), and a pixel has its share of that area.
+        let camera_area = shower.spec.pixels() as f32 * c.importance * a.at.true_cos(c.wi);
+        let eta = shower.rule.eta(shower.shrink * shower.radii.at(c.raster));
+        shower.rule.light_image_weight(s, camera_area, a.at.pdf_back(c.wi), self.merges, eta)
+    }
+}

@@ -1,0 +1,164 @@
+//! Weights of multiple importance sampling over all samplers that are on, in recursive form.
+//!
+//! After Georgiev 2012, "Implementing Vertex Connection and Merging" (technical report; equation numbers below are
+//! its). A subpath carries what is needed to compare, at any later vertex, the sampler at hand with all that would have
+//! made the same path with their joint at an earlier vertex:
+//!
+//! - `vcm`: 1 over the density of the last vertex (eqs. 31 and 34);
+//! - `vc`: the sum over joints by connection, next-event estimation or a hit (eqs. 32 and 35);
+//! - `vm`: the sum over joints by merging, *per unit of* `η = n·π·r²`. The report folds η into one more number, which needs one
+//!   radius for the whole scene; kept apart, each pixel may have its own.
+//!
+//! Samplers that are off contribute nothing to a sum, so that the weights of those that are on sum to one.
+//! Densities are those of walks without Russian roulette, which changes how often a sampler is used, not what it finds.
+//!
+//! **Correlation.** The photons of one gather share the camera's part of the path; what that part does badly, more photons
+//! do not mend. Grittmann et al. 2021, "Correlation-Aware Multiple Importance Sampling for Bidirectional Rendering
+//! Algorithms", therefore multiply the number of photons by a factor that falls with the probability `C` that two camera
+//! paths share the part up to the gather (their section 4: the product over its vertices of min(1, pdf · area), with the area of
+//! a disk seen under one degree). Their factor `C / (C + L − C·L)` also has the probability `L` of the light's part, and
+//! no recursive form; ours is the square root of `C`, a product, which does.
+use super::techniques::{Heuristic, Merge, Techniques};
+
+/// What is the same for all weights of a pass.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rule {
+    pub(super) on: Techniques,
+    pub(super) heuristic: Heuristic,
+    /// Light paths of the pass.
+    pub(super) paths: f32,
+    /// Area (world units²) within which camera vertices count as the same place.
+    pub(super) same_place: f32,
+}
+
+/// The sums of one subpath; see the module's text.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sums {
+    /// Of the last vertex; masked by whether the sampler with its joint there is on.
+    pub(super) vcm: f32,
+    /// Connections, light samples and hits.
+    pub(super) vc: f32,
+    /// Merging at the vertex before the last, over η.
+    pub(super) vm_last: f32,
+    /// Merging farther back, over η.
+    pub(super) vm_rest: f32,
+    /// Cosine at the vertex before the last over squared distance: turns a density (1/sr) back there into one per area.
+    pub(super) geometry: f32,
+    /// Correlation factor of merging at the last vertex (camera subpaths).
+    pub(super) shared: f32,
+}
+
+impl Sums {
+    /// Merging at all earlier vertices, over η.
+    #[inline]
+    pub(super) fn vm(&self) -> f32 {
+        self.vm_last + self.vm_rest
+    }
+}
+
+/// Densities of the scattering at a vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turn {
+    /// Density (1/sr) with which the walk took its direction.
+    pub(super) forward: f32,
+    /// Density (1/sr) with which it would have been taken the other way.
+    pub(super) back: f32,
+    /// True cosine of the direction taken.
+    pub(super) cos: f32,
+}
+
+impl Rule {
+    /// `η = n·π·r²`, compared as the heuristic has it.
+    #[inline]
+    pub(super) fn eta(&self, radius: f32) -> f32 {
+        self.heuristic.of(self.paths * std::f32::consts::PI * radius * radius)
+    }
+    /// Correlation factor of going on to a vertex drawn with density `pdf_area` (1/m²).
+    #[inline]
+    pub(super) fn sharing(&self, pdf_area: f32) -> f32 {
+        let same = pdf_area * self.same_place;
+        if same < 1.0 { self.heuristic.of(same.sqrt()) } else { 1.0 }
+    }
+
+    /// The sums of a light subpath at its first vertex (eqs. 31 to 33).
+    #[inline]
+    pub(super) fn leave_light(&self, light: &LightStart) -> Sums {
+        let h = self.heuristic;
+        let vcm = if self.on.nee { h.of(light.direct / (light.emitted * light.cos)) } else { 0.0 };
+        let vc = if self.on.hit && light.hittable { h.of(light.cos_light / (light.emitted * light.cos)) } else { 0.0 };
+        Sums { vcm, vc, ..Sums::default() }
+    }
+    /// The sums of a camera subpath at its first vertex: the sampler before it is the connection to the lens, made
+    /// for each light path. `pdf`: density (1/sr) of one camera path a pixel.
+    #[inline]
+    pub(super) fn leave_camera(&self, pdf: f32, d2: f32, cos: f32) -> Sums {
+        let vcm = if self.on.light_image { self.heuristic.of(self.paths * d2 / (pdf * cos)) } else { 0.0 };
+        Sums { vcm, shared: 1.0, ..Sums::default() }
+    }
+    /// Whether photons that were scattered `scatterings` times are merged.
+    #[inline]
+    pub(super) fn merges(&self, scatterings: u32) -> f32 {
+        let on = match self.on.merge {
+            Merge::Off | Merge::First | Merge::FirstAll => false,
+            Merge::All => true,
+            Merge::Scattered => scatterings > 0,
+        };
+        f32::from(u8::from(on))
+    }
+    /// `vcm` of a vertex past the first, drawn with density (1/sr) `pdf`, as the connection before it.
+    #[inline]
+    fn connection(&self, pdf_area: f32) -> f32 {
+        if self.on.connect { self.heuristic.of(1.0 / pdf_area) } else { 0.0 }
+    }
+
+    /// Takes the sums of a subpath on to the next vertex, across a scattering with a density (eqs. 34 to 36). `merges`:
+    /// [`Rule::merges`] of the vertex left behind, times its correlation factor on camera subpaths; `sharing`: how the
+    /// correlation factor of merging one vertex back changes (light subpaths; 1 on camera subpaths).
+    #[inline]
+    pub(super) fn scatter(&self, s: &Sums, turn: &Turn, merges: f32, sharing: f32, to: Leg) -> Sums {
+        let h = self.heuristic;
+        let forward_area = turn.forward * to.cos / to.d2;
+        let g = h.of(turn.cos / (turn.forward * to.cos));
+        let back = h.of(turn.back);
+        Sums {
+            vcm: self.connection(forward_area),
+            vc: g * (s.vcm + back * s.vc),
+            vm_last: g * merges,
+            vm_rest: g * back * sharing * s.vm(),
+            geometry: turn.cos / to.d2,
+            shared: s.shared * self.sharing(forward_area),
+        }
+    }
+    /// As [`Rule::scatter`] across a delta lobe: no sampler has its joint at either end of what follows (eqs. 37 to 39).
+    #[inline]
+    pub(super) fn pass_through(&self, s: &Sums, cos: f32, to: Leg) -> Sums {
+        let g = self.heuristic.of(cos / to.cos);
+        Sums { vcm: 0.0, vc: g * s.vc, vm_last: 0.0, vm_rest: g * s.vm(), geometry: cos / to.d2, shared: s.shared }
+    }
+}
+
+/// What is known when the first vertex of a light subpath is reached.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightStart {
+    /// Density with which next-event estimation from the vertex draws the light's point, times what turns it into the measure
+    /// of the emission: for a surface density (1/sr) · cosine at the light, for a point probability · squared distance, at
+    /// infinity density (1/sr) or probability alone.
+    pub(super) direct: f32,
+    /// Density of the emitted ray, choice of the light included.
+    pub(super) emitted: f32,
+    /// Cosine at the light; 1 where there is no surface.
+    pub(super) cos_light: f32,
+    /// Whether a ray can meet the light by chance.
+    pub(super) hittable: bool,
+    /// True cosine at the vertex.
+    pub(super) cos: f32,
+}
+
+/// The segment to a new vertex.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Leg {
+    /// Squared length.
+    pub(super) d2: f32,
+    /// True cosine at its end.
+    pub(super) cos: f32,
+}

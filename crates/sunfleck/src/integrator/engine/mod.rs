@@ -1,0 +1,195 @@
+//! One engine, several samplers: light subpaths, then camera subpaths, and each way to join them that is switched on,
+//! weighed against the others (Georgiev et al. 2012, "Light Transport Simulation with Vertex Connection and Merging").
+//!
+//! ```text
+//! light: subpaths ──▶ photons by place, vertices by path, splats
+//!                           │            │
+//! camera: subpaths ──▶ gather ──── connect ──── choose a light ──── meet a light
+//!                                   all weighed by `weights`, from the sums of `mis` that a `track` carries along
+//! ```
+//!
+//! The named algorithms that run on it are settings of [`Engine`], one file each beside this folder.
+mod camera;
+mod gather;
+mod light;
+mod mis;
+mod techniques;
+mod track;
+mod weights;
+
+pub use techniques::{Heuristic, Merge, Technique, Techniques};
+
+use super::{Integrator, ParamError, ParamInfo, Params, Pass, PassRenderer, eye_ray::EyeRay};
+use crate::{
+    camera::Project,
+    film::{FilmSpec, PassImage},
+    photon::{Kernel, Radii, RadiusMap, Schedule, Source, pixel_angle},
+    scene::{MID_SHUTTER, Scene},
+    spectrum::Wavelengths,
+    walk::Limits,
+};
+use camera::{Eye, EyeStart, Look, Only};
+use glam::Vec2;
+use light::Shower;
+use mis::Rule;
+
+/// Settings of the engine.
+#[derive(Clone, Copy, Debug)]
+pub struct Engine {
+    /// Which samplers are on.
+    pub on: Techniques,
+    /// When paths end.
+    pub limits: Limits,
+    /// Light paths a pass; `None`: chosen by the size of the picture.
+    pub paths: Option<u64>,
+    /// First radius; `None`: from what pixels cover.
+    pub radius: Option<f32>,
+    /// First radius over what pixels cover, or over `radius`.
+    pub radius_scale: f32,
+    /// How the radius shrinks.
+    pub schedule: Schedule,
+    /// What a photon counts.
+    pub kernel: Kernel,
+    /// What weights compare.
+    pub heuristic: Heuristic,
+}
+
+/// First radius in widths of a pixel.
+const PIXELS: f32 = 4.0;
+/// Light paths a pass at least and at most, if not set: few pixels still need photons, and many share them.
+const PATHS: std::ops::RangeInclusive<u64> = 1 << 14..=1 << 21;
+
+/// What every algorithm on the engine can be told.
+pub(super) const PARAMS: [ParamInfo; 6] = [
+    ParamInfo { name: "photons", about: "light paths a pass, 1 to 1e9 (default: by the size of the picture)" },
+    ParamInfo { name: "radius", about: "first radius, world units > 0 (default: from what pixels cover)" },
+    ParamInfo { name: "radius-scale", about: "first radius over that, 1e-6 to 1e6 (default 1)" },
+    ParamInfo { name: "alpha", about: "how the radius shrinks, 0.01 to 1 (default 2/3; 1 keeps it)" },
+    ParamInfo { name: "kernel", about: "constant, cone or epanechnikov (default epanechnikov)" },
+    ParamInfo { name: "heuristic", about: "what weights compare: balance or power (default balance)" },
+];
+
+impl Engine {
+    /// With its usual settings.
+    pub fn new(on: Techniques) -> Self {
+        Self {
+            on,
+            limits: Limits::default(),
+            paths: None,
+            radius: None,
+            radius_scale: 1.0,
+            schedule: Schedule::default(),
+            kernel: Kernel::Epanechnikov,
+            heuristic: Heuristic::default(),
+        }
+    }
+    /// With named settings, [`PARAMS`] and those common to all algorithms.
+    pub(super) fn from_params(on: Techniques, p: &mut Params) -> Result<Self, ParamError> {
+        let d = Self::new(on);
+        let paths = p.count("photons", 0, 1..=1_000_000_000)?;
+        let radius = p.number("radius", 0.0, f64::from(f32::MIN_POSITIVE)..=1e30)? as f32;
+        Ok(Self {
+            limits: p.limits()?,
+            paths: (paths > 0).then_some(paths),
+            radius: (radius > 0.0).then_some(radius),
+            radius_scale: p.number("radius-scale", 1.0, 1e-6..=1e6)? as f32,
+            schedule: Schedule { alpha: p.number("alpha", d.schedule.alpha, 0.01..=1.0)? },
+            kernel: Kernel::ALL[p.word("kernel", d.kernel as usize, &Kernel::WORDS)?],
+            heuristic: Heuristic::ALL[p.word("heuristic", d.heuristic as usize, &Heuristic::WORDS)?],
+            ..d
+        })
+    }
+}
+
+impl Integrator for Engine {
+    fn prepare<'s>(&'s self, scene: &'s Scene, spec: FilmSpec, seed: u64) -> Box<dyn PassRenderer + 's> {
+        let fallback = 1e-3 * scene.bounding_sphere().1;
+        let seen = Radii::from_footprints(scene, spec, &self.limits, seed, PIXELS, fallback);
+        let paths = self.paths.unwrap_or((spec.pixels() as u64).clamp(*PATHS.start(), *PATHS.end()));
+        // The typical radius is PIXELS pixels wide; how many of those make one degree?
+        let pixel = pixel_angle(
+            scene.world(Wavelengths::Rgb, MID_SHUTTER).camera().ray(Vec2::splat(0.5), Vec2::splat(0.5)).solid_angle,
+            spec,
+        );
+        let degree = seen.typical() / PIXELS * (1f32.to_radians().tan() / pixel);
+        Box::new(Prepared {
+            scene,
+            engine: self,
+            radii: self.radius.map_or(seen, Radii::fixed).scaled(self.radius_scale),
+            source: Source::plain(),
+            paths: if self.on.need_light_paths() { paths } else { 0 },
+            same_place: std::f32::consts::PI * degree * degree,
+        })
+    }
+}
+
+struct Prepared<'s> {
+    scene: &'s Scene,
+    engine: &'s Engine,
+    radii: Radii,
+    source: Source,
+    /// Light paths a pass.
+    paths: u64,
+    same_place: f32,
+}
+
+impl PassRenderer for Prepared<'_> {
+    fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
+        self.render(pass, None, image);
+    }
+}
+
+impl Prepared<'_> {
+    fn render(&self, pass: &Pass, only: Option<Only>, image: &mut PassImage) {
+        let engine = self.engine;
+        let world = self.scene.world(pass.lambda, pass.time);
+        let spec = image.spec();
+        let shrink = engine.schedule.radius(pass.index);
+        let rule =
+            Rule { on: engine.on, heuristic: engine.heuristic, paths: self.paths as f32, same_place: self.same_place };
+        let shower = Shower {
+            world: &world,
+            rule,
+            source: &self.source,
+            limits: engine.limits,
+            radii: &self.radii,
+            shrink,
+            pass,
+            first: 0,
+            paths: self.paths,
+            spec,
+            only,
+        };
+        let subpaths = shower.walk(image);
+        let map = engine
+            .on
+            .merge
+            .is_on()
+            .then(|| RadiusMap::new(&subpaths.positions, &subpaths.photons, self.radii.typical() * shrink));
+        let eye = Eye {
+            world: &world,
+            rule,
+            source: &self.source,
+            limits: engine.limits,
+            kernel: engine.kernel,
+            map,
+            subpaths,
+            radii: &self.radii,
+            shrink,
+            only,
+        };
+        image.fill(|x, y, counts| {
+            let mut ray = EyeRay::new(&world, spec, pass, pass.index, (x, y));
+            let partner = if engine.on.connect { ray.sampler.next_1d() * self.paths as f32 } else { 0.0 };
+            let start = EyeStart {
+                raster: ray.raster,
+                from: ray.camera.ray.o,
+                pdf: spec.pixels() as f32 / ray.camera.solid_angle,
+                partner: (partner as usize).min(self.paths.saturating_sub(1) as usize),
+            };
+            let mut look = Look::new(&eye, start, counts);
+            let rays = crate::walk::walk(&world, &ray.start(), &engine.limits, &mut ray.sampler, &mut look);
+            look.finish(rays).to_rgb(pass.lambda)
+        });
+    }
+}

@@ -1,0 +1,94 @@
+//! The weight of each sampler beside all others, from the sums of the two subpaths that it joins.
+//!
+//! In each, `eta` is [`Rule::eta`] with the radius of the pixel, and a weight is `1 / (1 + what the light's side has + what
+//! the camera's side has)` (Georgiev 2012, eqs. 38 to 48).
+use super::{
+    light::PhotonSums,
+    mis::{Rule, Sums},
+};
+
+/// Densities (1/sr) of scattering at a vertex between its two neighbours.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Between {
+    /// From the own subpath's past to the other subpath.
+    pub(super) forward: f32,
+    /// From the other subpath to the own subpath's past.
+    pub(super) back: f32,
+}
+
+#[inline]
+fn weight(others: f32) -> f32 {
+    // Infinite sums are honest zeros; a product of 0 and ∞ is not a number, and no sampler finds such a path.
+    if others.is_nan() { 0.0 } else { 1.0 / (1.0 + others) }
+}
+
+impl Rule {
+    /// A camera path that met a light past its first leg. `direct_over_pdf`: density of next-event estimation over the
+    /// density of the last direction, 0 if that sampler could not; `emitted`: density of the light's emission the other way;
+    /// `s`: sums at the light.
+    #[inline]
+    pub(super) fn hit_weight(&self, s: &Sums, direct_over_pdf: f32, emitted: f32, eta: f32) -> f32 {
+        let h = self.heuristic;
+        let nee = if self.on.nee { h.of(direct_over_pdf) } else { 0.0 };
+        let vm = if self.on.merge.of_direct() { s.vm() } else { s.vm_rest };
+        weight(nee + h.of(emitted) * (s.vc + eta * vm))
+    }
+
+    /// A point of a light chosen from a camera vertex. `hit_over_pdf`: density of meeting it by chance over that of the
+    /// choice, 0 where none can; `emitted_over_pdf`: density (per area at the vertex) of the light's emission toward the
+    /// vertex over that of the choice; `back`: density (1/sr) at the vertex from the light to the camera's side.
+    #[inline]
+    pub(super) fn nee_weight(&self, s: &Sums, hit_over_pdf: f32, emitted_over_pdf: f32, back: f32, eta: f32) -> f32 {
+        let h = self.heuristic;
+        let hit = if self.on.hit { h.of(hit_over_pdf) } else { 0.0 };
+        let here = if self.merges(0) > 0.0 { eta * s.shared } else { 0.0 };
+        weight(hit + h.of(emitted_over_pdf) * (here + s.vcm + h.of(back) * (s.vc + eta * s.vm())))
+    }
+
+    /// A light vertex connected to the lens. `camera_area`: density (1/m²) of one camera path of the pixel at the vertex;
+    /// `back`: density (1/sr) at the vertex from the lens to the light's side; `merges`: [`Rule::merges`] of the vertex.
+    #[inline]
+    pub(super) fn light_image_weight(&self, s: &Sums, camera_area: f32, back: f32, merges: f32, eta: f32) -> f32 {
+        let h = self.heuristic;
+        let sharing = self.sharing(back * s.geometry);
+        let others = eta * merges + s.vcm + h.of(back) * (s.vc + eta * sharing * s.vm());
+        weight(h.of(camera_area / self.paths) * others)
+    }
+
+    /// A camera vertex connected to a light vertex. `to_light`, `to_camera`: density (1/m²) of the one subpath's last vertex
+    /// as drawn from the other's; `merges`: [`Rule::merges`] of the light vertex.
+    #[inline]
+    pub(super) fn connect_weight(&self, camera: &Joint, light: &Joint, merges: f32, eta: f32) -> f32 {
+        let h = self.heuristic;
+        let (c, l) = (camera.sums, light.sums);
+        // Photons of the camera vertex have been scattered, at the light vertex if nowhere else.
+        let camera_merges = self.merges(1) * c.shared;
+        let light_shared = c.shared * self.sharing(light.area);
+        let farther = light_shared * self.sharing(light.back * l.geometry);
+        let on_light = h.of(light.area)
+            * (eta * merges * light_shared + l.vcm + h.of(light.back) * (l.vc + eta * farther * l.vm()));
+        let on_camera = h.of(camera.area) * (eta * camera_merges + c.vcm + h.of(camera.back) * (c.vc + eta * c.vm()));
+        weight(on_light + on_camera)
+    }
+
+    /// A photon gathered at a camera vertex. `at`: densities at the vertex, forward to where the photon came from.
+    #[inline]
+    pub(super) fn merge_weight(&self, camera: &Sums, photon: &PhotonSums, at: Between, eta: f32) -> f32 {
+        let h = self.heuristic;
+        let farther = camera.shared * self.sharing(at.forward * photon.geometry);
+        let on_light = photon.vcm + h.of(at.forward) * (photon.vc + eta * farther * photon.vm);
+        let on_camera = camera.vcm + h.of(at.back) * (camera.vc + eta * camera.vm());
+        weight((on_light + on_camera) / (eta * camera.shared))
+    }
+}
+
+/// One end of a connection.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Joint<'s> {
+    /// Sums of its subpath.
+    pub(super) sums: &'s Sums,
+    /// Density (1/m²) with which the other subpath would have drawn this vertex.
+    pub(super) area: f32,
+    /// Density (1/sr) from the other subpath to this one's past.
+    pub(super) back: f32,
+}

@@ -1,0 +1,147 @@
+//! How far a gather reaches, over the picture: from what its pixels cover, through mirrors and glass.
+use super::survey::pixel_angle;
+use crate::{
+    bsdf::Transport,
+    camera::Project,
+    film::FilmSpec,
+    sampler::{Domain, Sampler},
+    scene::{Interaction, MID_SHUTTER, Scene, World},
+    spectrum::{Spectrum, Wavelengths},
+    walk::{Arrival, Limits, Start, Step, Visit, walk},
+};
+use glam::{Vec2, Vec3};
+use rayon::prelude::*;
+
+/// First radii by place on the picture: a function of raster coordinates alone, so that all samplers of a path agree on the
+/// radius it is merged with.
+#[derive(Clone, Debug)]
+pub struct Radii {
+    columns: usize,
+    rows: usize,
+    /// Natural logarithm of the radius (world units) in the middle of each tile, row by row.
+    log: Vec<f32>,
+    typical: f32,
+}
+
+/// Pixels along the edge of a tile, for pictures of up to [`MAX_TILES`] tiles a side.
+const TILE: u32 = 8;
+const MAX_TILES: u32 = 128;
+/// Camera paths a tile.
+const SAMPLES: u64 = 4;
+/// A radius is no more than this many times larger or smaller than the median of the picture.
+const SPREAD: f32 = 16.0;
+/// A pixel seen through glass covers at most so many times more or less than what its distance alone says.
+const LENS: f32 = 16.0;
+
+impl Radii {
+    /// The same radius (world units, positive) everywhere.
+    pub fn fixed(radius: f32) -> Self {
+        Self { columns: 1, rows: 1, log: vec![radius.ln()], typical: radius }
+    }
+    /// `scale` times the width of a pixel where its path first meets a connectible surface. `fallback` is the radius if
+    /// the camera sees none.
+    pub fn from_footprints(
+        scene: &Scene,
+        spec: FilmSpec,
+        limits: &Limits,
+        seed: u64,
+        scale: f32,
+        fallback: f32,
+    ) -> Self {
+        let (columns, rows) = (spec.width.div_ceil(TILE).min(MAX_TILES), spec.height.div_ceil(TILE).min(MAX_TILES));
+        let world = scene.world(Wavelengths::Rgb, MID_SHUTTER);
+        let tile = |i: u32| -> Option<f32> {
+            let mut widths: Vec<f32> = (0..SAMPLES)
+                .filter_map(|s| {
+                    let mut sampler = Sampler::new(seed, Domain::Prepare, u64::MAX - 1, u64::from(i) * SAMPLES + s);
+                    let u = sampler.next_2d();
+                    let place = Vec2::new((i % columns) as f32 + u.x, (i / columns) as f32 + u.y);
+                    footprint(&world, spec, *limits, place / Vec2::new(columns as f32, rows as f32), sampler)
+                })
+                .collect();
+            widths.sort_by(f32::total_cmp);
+            widths.get(widths.len() / 2).copied()
+        };
+        let widths: Vec<Option<f32>> = (0..columns * rows).into_par_iter().map(tile).collect();
+        let mut seen: Vec<f32> = widths.iter().flatten().copied().collect();
+        seen.sort_by(f32::total_cmp);
+        let Some(&median) = seen.get(seen.len() / 2) else { return Self::fixed(fallback) };
+        let log = |w: &Option<f32>| (scale * w.unwrap_or(median).clamp(median / SPREAD, median * SPREAD)).ln();
+        let log = widths.iter().map(log).collect();
+        Self { columns: columns as usize, rows: rows as usize, log, typical: scale * median }.smoothed()
+    }
+    /// Every radius times `factor`.
+    pub fn scaled(mut self, factor: f32) -> Self {
+        self.log.iter_mut().for_each(|l| *l += factor.ln());
+        self.typical *= factor;
+        self
+    }
+    /// Each tile takes the mean of itself and its neighbours: what a handful of paths say of one tile is noisy.
+    fn smoothed(self) -> Self {
+        let near = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);
+        let mean = |i: usize| {
+            let (x, y) = (i % self.columns, i / self.columns);
+            let around = near(y, self.rows).flat_map(|y| near(x, self.columns).map(move |x| (x, y)));
+            let (sum, n) = around.fold((0.0, 0.0), |(s, n), (x, y)| (s + self.log[y * self.columns + x], n + 1.0));
+            sum / n
+        };
+        let log = (0..self.log.len()).map(mean).collect();
+        Self { log, ..self }
+    }
+    /// The first radius (world units) at `raster` (see [`crate::camera`]): smooth over the picture, held at its edges.
+    #[inline]
+    pub fn at(&self, raster: Vec2) -> f32 {
+        if self.log.len() == 1 {
+            return self.typical;
+        }
+        let (w, h) = (self.columns as f32, self.rows as f32);
+        let p = (raster * Vec2::new(w, h) - 0.5).clamp(Vec2::ZERO, Vec2::new(w - 1.0, h - 1.0));
+        let (x, y) = (p.x as usize, p.y as usize);
+        let (x1, y1) = ((x + 1).min(self.columns - 1), (y + 1).min(self.rows - 1));
+        let t = p.fract();
+        let row = |y: usize| self.log[y * self.columns + x] * (1.0 - t.x) + self.log[y * self.columns + x1] * t.x;
+        (row(y) * (1.0 - t.y) + row(y1) * t.y).exp()
+    }
+    /// A radius in the middle of those in use.
+    pub fn typical(&self) -> f32 {
+        self.typical
+    }
+}
+
+/// Width (world units) across the path of what a pixel covers around `raster`: from two twins of a camera path, one pixel
+/// aside and one below, that make the same choices at mirrors and glass. That is a ray differential (Igehy 1999) by
+/// finite differences; where the twins part ways, the distance along the path stands in.
+fn footprint(world: &World, spec: FilmSpec, limits: Limits, raster: Vec2, mut sampler: Sampler) -> Option<f32> {
+    let u_lens = sampler.next_2d();
+    let follow = |raster: Vec2| {
+        let camera = world.camera().ray(raster, u_lens);
+        let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance };
+        let mut first = First { found: None };
+        walk(world, &start, &limits, &mut sampler.clone(), &mut first);
+        first.found.map(|(at, travelled)| (at, pixel_angle(camera.solid_angle, spec) * travelled))
+    };
+    let (at, width) = follow(raster)?;
+    let pixel = Vec2::new(1.0 / spec.width as f32, 1.0 / spec.height as f32);
+    let aside = |offset: Vec2| -> Option<Vec3> {
+        let (twin, _) = follow(raster + offset)?;
+        (twin.ng.dot(at.ng) > 0.5).then(|| twin.p - at.p)
+    };
+    let area = aside(Vec2::new(pixel.x, 0.0)).zip(aside(Vec2::new(0.0, pixel.y))).map(|(x, y)| x.cross(y).length());
+    let across = area.map_or(width, |a| (a * at.true_cos(at.wo)).sqrt());
+    let width = across.clamp(width / LENS, width * LENS);
+    (width > 0.0 && width.is_finite()).then_some(width)
+}
+
+struct First {
+    found: Option<(Interaction, f32)>,
+}
+
+impl Visit for First {
+    fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
+        if !a.at.is_connectible() {
+            return Step::OnIfDelta;
+        }
+        self.found = Some((*a.at, a.travelled));
+        Step::Stop
+    }
+}
