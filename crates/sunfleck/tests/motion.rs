@@ -189,7 +189,7 @@ fn the_bounding_sphere_holds_the_whole_way() {
     holds(Vec3::new(5.0, -4.5, 0.0));
     for time in (0..=100).map(|i| i as f32 / 100.0) {
         let middle = Vec3::new(10.0 * time + 5.0 * (turn * time).cos(), 5.0 * (turn * time).sin(), 0.0);
-        [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y].map(|d| holds(middle + d));
+        [Vec3::X, Vec3::NEG_X, Vec3::Y, Vec3::NEG_Y].into_iter().for_each(|d| holds(middle + d));
     }
     assert!(radius < 6.5, "{radius}");
     for time in [0.0, 0.5, 1.0] {

@@ -115,7 +115,7 @@ fn footprint(world: &World, spec: FilmSpec, limits: Limits, raster: Vec2, mut sa
     let u_lens = sampler.next_2d();
     let follow = |raster: Vec2| {
         let camera = world.camera().ray(raster, u_lens);
-        let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance };
+        let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
         let mut first = First { found: None };
         walk(world, &start, &limits, &mut sampler.clone(), &mut first);
         first.found.map(|(at, travelled)| (at, pixel_angle(camera.solid_angle, spec) * travelled))

@@ -11,7 +11,7 @@ use crate::{
     bsdf::Transport,
     film::Counts,
     light::{Emitter, EmitterHit, LightEnd},
-    photon::{Disc, Kernel, Radii, RadiusMap, Source},
+    photon::{CameraEnd, Disc, Kernel, Radii, RadiusMap, Source},
     sampler::Sampler,
     scene::{Interaction, Scattered, World},
     spectrum::Spectrum,
@@ -240,7 +240,8 @@ impl Look<'_> {
             let light = Joint { sums: &v.sums, area: a.at.pdf(wi) * v.at.true_cos(wi) / d2, back: v.at.pdf_back(-wi) };
             let camera = Joint { sums, area: v.at.pdf(-wi) * a.at.true_cos(wi) / d2, back: a.at.pdf_back(wi) };
             let weight = eye.rule.connect_weight(&camera, &light, eye.rule.merges(v.scatterings), self.eta);
-            self.add(Technique::Connect, a.beta * f * v.flux * (1.0 / d2), weight);
+            let join = Spectrum::join(a.dispersed, v.dispersed);
+            self.add(Technique::Connect, a.beta * f * v.flux * (join / d2), weight);
         }
     }
 
@@ -252,7 +253,7 @@ impl Look<'_> {
         let Some(most) = eye.limits.scatterings.checked_sub(a.scatterings + 1) else { return };
         let disc = Disc { radius: self.radius, kernel: eye.kernel };
         let unweighted = eye.rule.on.merge.at_first_only() || eye.only.is_some_and(|o| !o.weighted);
-        let value = gather(map, a.at, disc, most, |photon, at| {
+        let value = gather(map, a.at, disc, CameraEnd { most, dispersed: a.dispersed }, |photon, at| {
             if unweighted { 1.0 } else { eye.rule.merge_weight(sums, &photon.sums, at, self.eta) }
         });
         self.add(Technique::Merge, a.beta * value, 1.0);

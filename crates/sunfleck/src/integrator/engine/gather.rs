@@ -2,44 +2,45 @@
 use super::{light::Photon, weights::Between};
 use crate::{
     bsdf::{Bsdf, Transport},
-    photon::{Disc, RadiusMap},
+    photon::{CameraEnd, Disc, RadiusMap},
     scene::Interaction,
     spectrum::Spectrum,
 };
 use std::f32::consts::{FRAC_1_PI, PI};
 
-/// Radiance that `at` scatters toward `at.wo` from the photons of the disc around it that were scattered at most `most`
-/// times, each times its weight (see [`crate::photon::gather`] for the estimate).
+/// Radiance that `at` scatters toward `at.wo` from the photons of the disc around it that were scattered at most
+/// [`CameraEnd::most`] times, each times its weight (see [`crate::photon::gather`] for the estimate).
 #[inline]
 pub(super) fn gather(
     map: &RadiusMap<Photon>,
     at: &Interaction,
     disc: Disc,
-    most: u32,
+    end: CameraEnd,
     weigh: impl Fn(&Photon, Between) -> f32,
 ) -> Spectrum {
     let r2 = disc.radius * disc.radius;
+    let join = |photon: &Photon| Spectrum::join(end.dispersed, photon.dispersed);
     let mut sum = Spectrum::BLACK;
     if let Bsdf::Diffuse(_) = at.bsdf {
         // Scattering is the same for all directions on the eye's side, and none on the other.
         let back = at.shading_cos(at.wo) * FRAC_1_PI;
         map.within(at.p, disc.radius, |photon, d2| {
-            if photon.scatterings <= most && at.is_on_near_side(photon.wi) {
+            if u32::from(photon.scatterings) <= end.most && at.is_on_near_side(photon.wi) {
                 let between = Between { forward: at.shading_cos(photon.wi) * FRAC_1_PI, back };
-                let weight = weigh(photon, between) * at.cos_ratio(photon.wi);
+                let weight = join(photon) * weigh(photon, between) * at.cos_ratio(photon.wi);
                 sum += photon.flux * (weight * disc.kernel.shape(d2, r2));
             }
         });
         sum *= at.f(at.wo, Transport::Radiance);
     } else {
         map.within(at.p, disc.radius, |photon, d2| {
-            if photon.scatterings > most {
+            if u32::from(photon.scatterings) > end.most {
                 return;
             }
             let f = at.f_photon(photon.wi);
             if !f.is_black() {
                 let between = Between { forward: at.pdf(photon.wi), back: at.pdf_back(photon.wi) };
-                sum += f * photon.flux * (weigh(photon, between) * disc.kernel.shape(d2, r2));
+                sum += f * photon.flux * (join(photon) * weigh(photon, between) * disc.kernel.shape(d2, r2));
             }
         });
     }

@@ -48,7 +48,9 @@ pub(super) struct Photon {
     /// Unit direction back to where it came from.
     pub(super) wi: Vec3,
     /// Scatterings since the light.
-    pub(super) scatterings: u32,
+    pub(super) scatterings: u16,
+    /// Some boundary on its way parted the wavelengths.
+    pub(super) dispersed: bool,
     pub(super) sums: PhotonSums,
 }
 
@@ -68,6 +70,8 @@ pub(super) struct LightVertex {
     /// Flux (W) that arrives, as of one path.
     pub(super) flux: Spectrum,
     pub(super) scatterings: u32,
+    /// Some boundary on the way parted the wavelengths.
+    pub(super) dispersed: bool,
     pub(super) sums: Sums,
 }
 
@@ -182,7 +186,8 @@ impl Visit for Shine<'_, '_> {
             self.deposit(a, &sums);
         }
         if rule.on.connect {
-            self.out.vertices.push(LightVertex { at: *a.at, flux: a.beta, scatterings: a.scatterings, sums });
+            let (flux, scatterings, dispersed) = (a.beta, a.scatterings, a.dispersed);
+            self.out.vertices.push(LightVertex { at: *a.at, flux, scatterings, dispersed, sums });
         }
         if rule.on.light_image {
             self.splat(a, &sums, u_lens);
@@ -202,7 +207,9 @@ impl Shine<'_, '_> {
         self.out.photons.push(Photon {
             flux: a.beta / self.shower.paths as f32,
             wi: a.at.wo,
-            scatterings: a.scatterings,
+            // Limits are far below.
+            scatterings: a.scatterings as u16,
+            dispersed: a.dispersed,
             sums: PhotonSums { vcm: s.vcm, vc: s.vc, vm: s.vm(), geometry: s.geometry },
         });
     }
