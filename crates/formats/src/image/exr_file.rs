@@ -80,7 +80,8 @@ fn metadata(image: &FlatImage) -> Vec<(String, String)> {
         .filter_map(|(name, value)| {
             let AttributeValue::Text(text) = value else { return None };
             let name = name.to_string();
-            Some((name.strip_prefix(PREFIX).unwrap_or(&name).to_owned(), text.to_string()))
+            let value = String::from_utf8(text.as_slice().to_vec()).unwrap_or_else(|_| text.to_string());
+            Some((name.strip_prefix(PREFIX).unwrap_or(&name).to_owned(), value))
         })
         .collect();
     all.sort_unstable();
@@ -165,11 +166,12 @@ fn write(file: &ImageFile, _: Tone) -> Result<Vec<u8>, String> {
         }
         add_channels(&mut list, name, image);
     }
-    let mut attributes = LayerAttributes { software_name: text("sunfleck"), ..LayerAttributes::default() };
+    let mut attributes = LayerAttributes { software_name: Some(text("sunfleck")), ..LayerAttributes::default() };
     for (name, value) in &file.metadata {
-        let key = text(&format!("{PREFIX}{name}")).ok_or_else(|| format!("`{name}` cannot name metadata"))?;
-        let value = text(value).ok_or_else(|| format!("the value of `{name}` cannot be stored"))?;
-        attributes.other.insert(key, AttributeValue::Text(value));
+        if !name.is_ascii() {
+            return Err(format!("`{name}` cannot name metadata: not ASCII"));
+        }
+        attributes.other.insert(text(&format!("{PREFIX}{name}")), AttributeValue::Text(text(value)));
     }
     let size = (file.image.width as usize, file.image.height as usize);
     let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(list));
@@ -179,9 +181,9 @@ fn write(file: &ImageFile, _: Tone) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-/// The format knows Latin-1 only.
-fn text(value: &str) -> Option<Text> {
-    Text::new_or_none(value)
+/// In UTF-8: the format says nothing of encodings, and readers refuse files whose texts are something else.
+fn text(value: &str) -> Text {
+    Text::from_slice_unchecked(value.as_bytes())
 }
 
 fn add_channels(list: &mut SmallVec<[AnyChannel<FlatSamples>; 4]>, layer: &str, image: &RgbImage32) {

@@ -76,7 +76,7 @@ fn exr_keeps_layers_and_metadata() {
     file.layers.push(("albedo".to_owned(), RgbImage32::filled(6, 3, [0.1, 0.2, 0.3])));
     file.layers.push(("direct.light".to_owned(), RgbImage32::filled(6, 3, [1.0, 2.0, 3.0])));
     file.metadata.push(("passes".to_owned(), "64".to_owned()));
-    file.metadata.push(("scene".to_owned(), "0f3a".to_owned()));
+    file.metadata.push(("scene".to_owned(), "康奈尔.scn, 40°".to_owned()));
     let (back, report) = written(&file, "a.exr", Tone::Srgb);
     assert_eq!(back, file);
     assert!(!report.layers_left_out);
