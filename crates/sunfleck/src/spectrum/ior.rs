@@ -1,6 +1,6 @@
 //! Indices of refraction of clear media, constant or by wavelength.
-use super::{Spectrum, Wavelengths};
-use glam::Vec4;
+use super::{Curve, Spectrum, Wavelengths};
+use glam::{DMat3, DVec3, Vec4};
 
 /// An index of refraction. With two or more wavelengths of different index, a boundary parts the colours of light.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +28,23 @@ impl From<f32> for Ior {
 }
 
 impl Ior {
+    /// The formula of Cauchy that comes nearest to a measured curve between 400 and 700 nm (least squares); constant if the
+    /// curve is.
+    pub fn fitted(curve: &Curve) -> Self {
+        let samples = || (400..=700).step_by(5).map(|nm| nm as f32);
+        let first = curve.at(400.0);
+        if samples().all(|nm| (curve.at(nm) - first).abs() < 1e-6) {
+            return Self::Constant(first);
+        }
+        let (mut normal, mut right) = (DMat3::ZERO, DVec3::ZERO);
+        for nm in samples() {
+            let x = 1e6 / f64::from(nm * nm);
+            let row = DVec3::new(1.0, x, x * x);
+            normal += DMat3::from_cols(row * row.x, row * row.y, row * row.z);
+            right += row * f64::from(curve.at(nm));
+        }
+        Self::Cauchy((normal.inverse() * right).as_vec3().to_array())
+    }
     /// Whether the index changes with the wavelength.
     #[inline]
     pub fn is_dispersive(&self) -> bool {
@@ -70,6 +87,16 @@ impl Ior {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_measured_curve_is_followed_by_its_fit() {
+        let glass = Ior::Sellmeier { b: [1.7376, 0.3137, 1.8988, 0.0], c: [0.013_189, 0.062_307, 155.236, 0.0] };
+        let fit = Ior::fitted(&Curve::new(|nm| glass.at_nm(nm)));
+        for nm in [400.0, 450.0, 500.0, 587.6, 650.0, 700.0] {
+            assert!((fit.at_nm(nm) - glass.at_nm(nm)).abs() < 1.5e-3, "{nm}: {} {}", fit.at_nm(nm), glass.at_nm(nm));
+        }
+        assert_eq!(Ior::fitted(&Curve::new(|_| 1.5)), Ior::Constant(1.5));
+    }
 
     #[test]
     fn an_index_is_the_same_by_lanes_and_by_one_wavelength() {

@@ -15,6 +15,7 @@ mod cie_tables;
 mod colour;
 mod curve;
 mod ior;
+mod named;
 mod observer;
 mod uplift;
 mod wavelengths;
@@ -22,6 +23,7 @@ mod wavelengths;
 pub use colour::{Colour, Illuminant};
 pub use curve::{CHANNELS_NM, Curve, CurveError};
 pub use ior::Ior;
+pub use named::{NAMED, Named, named};
 pub use wavelengths::{ColorMode, NM_MAX, NM_MIN, Wavelengths};
 
 use glam::{Vec3, Vec4};
