@@ -287,7 +287,7 @@ fn the_weight_of_the_hero_is_not_counted_twice_where_dispersed_paths_meet() {
         };
         let end = CameraEnd { most: 0, dispersed: camera };
         let beta = if camera { Spectrum::ONE.hero_only() } else { Spectrum::ONE };
-        let within = beta * gather_within(&RadiusMap::new(&catch, 1.0), &at, disc, end);
+        let within = beta * gather_within(&RadiusMap::new(&catch.positions, &catch.photons, 1.0), &at, disc, end);
         let map = NearestMap::new(catch);
         let nearest = beta * gather_nearest(&map, &at, &mut NearestQuery::new(5, 1.0), Kernel::Constant, end);
         // The hero, weighed once for the lanes that are dropped.
