@@ -7,6 +7,9 @@ pub mod image;
 mod lines;
 pub mod load;
 pub mod obj;
+mod packed;
+mod pbrt;
+pub mod ply;
 pub mod scn;
 
 pub use diagnostic::{Diagnostic, Error, Severity};

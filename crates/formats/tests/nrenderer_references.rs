@@ -35,7 +35,7 @@ fn against_reference(case: &Case) -> Option<Comparison> {
         eprintln!("skipped: {} is not there (set SUNFLECK_SHARED)", reference.display());
         return None;
     }
-    let options = LoadOptions { scn: ScnOptions { compat: true, ..ScnOptions::default() } };
+    let options = LoadOptions { scn: ScnOptions { compat: true, ..ScnOptions::default() }, ..LoadOptions::default() };
     let mut loaded = load(&[scene], &options).expect("a stock scene loads");
     loaded.builder.camera(loaded.camera.build(1.0).expect("the default camera"));
     let world = loaded.builder.build().expect("a stock scene builds");

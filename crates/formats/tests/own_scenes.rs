@@ -15,7 +15,7 @@ fn every_scene_of_ours_loads_without_a_word() {
         }
         count += 1;
         for compat in [false, true] {
-            let options = LoadOptions { scn: ScnOptions { compat, ..ScnOptions::default() } };
+            let options = LoadOptions { scn: ScnOptions { compat, ..ScnOptions::default() }, ..LoadOptions::default() };
             let loaded = load(std::slice::from_ref(&path), &options).unwrap_or_else(|e| panic!("{e}"));
             assert!(loaded.warnings.is_empty(), "{}: {:?}", path.display(), loaded.warnings);
             loaded.builder.build().unwrap();

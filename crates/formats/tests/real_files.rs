@@ -37,7 +37,7 @@ fn has_extension(path: &Path, extensions: &[&str]) -> bool {
 }
 
 fn load_one(path: &Path, compat: bool) -> Result<Loaded, Error> {
-    load(&[path.to_owned()], &LoadOptions { scn: ScnOptions { compat, ..ScnOptions::default() } })
+    load(&[path.to_owned()], &LoadOptions { scn: ScnOptions { compat, ..ScnOptions::default() }, allow_outside: true })
 }
 
 fn print(path: &Path, warnings: &[Diagnostic]) {
@@ -88,7 +88,7 @@ fn odd_meshes_give_a_scene_or_a_clear_error() {
                 println!("{}\n{error}", path.display());
                 let place = error.errors[0].place.as_ref().unwrap();
                 assert!(place.file.contains(&*path.file_stem().unwrap().to_string_lossy()));
-                let is_mesh = has_extension(&path, &["obj"]);
+                let is_mesh = has_extension(&path, &["obj", "ply"]);
                 assert!(is_mesh || error.to_string().contains("known: scn, obj"), "{error}");
             }
         }
@@ -96,9 +96,24 @@ fn odd_meshes_give_a_scene_or_a_clear_error() {
 }
 
 #[test]
+fn every_pbrt_scene_loads_and_builds() {
+    let Some(folder) = shared("scenes") else { return };
+    let scenes = files_below(&folder).into_iter().filter(|p| has_extension(p, &["pbrt"]));
+    // Parts of other scenes, and the largest one, which `book/src/formats.md` has figures for.
+    let whole = scenes.filter(|p| !p.ends_with("geometry.pbrt") && !p.to_string_lossy().contains("fractal"));
+    for path in whole {
+        let loaded = load_one(&path, false).unwrap_or_else(|e| panic!("{}:\n{e}", path.display()));
+        print(&path, &loaded.warnings);
+        loaded.builder.build().unwrap_or_else(|e| panic!("{}:\n{e}", path.display()));
+    }
+}
+
+#[test]
 fn meshes_beside_other_scenes_load_too() {
     let Some(folder) = shared("scenes") else { return };
-    for path in files_below(&folder).into_iter().filter(|p| has_extension(p, &["obj"])) {
+    let is_odd = |p: &Path| p.components().any(|c| c.as_os_str() == "odd-obj-ply");
+    let files = files_below(&folder).into_iter().filter(|p| !is_odd(p));
+    for path in files.filter(|p| has_extension(p, &["obj", "ply"])) {
         if let Err(error) = load_one(&path, false) {
             assert!(error.errors[0].place.is_some(), "{}:\n{error}", path.display());
             println!("{error}");

@@ -13,6 +13,7 @@ fn cameras() -> Vec<(&'static str, Camera)> {
     vec![
         ("pinhole", pinhole().into()),
         ("thin lens", pinhole().with_lens(0.4, 3.0).unwrap().into()),
+        ("shifted and mirrored", pinhole().with_shift(Vec2::new(0.3, -0.2)).mirrored().into()),
         ("wide thin lens", Perspective::new(&VIEW, 100.0, 0.7).unwrap().with_lens(0.5, 1.0).unwrap().into()),
     ]
 }

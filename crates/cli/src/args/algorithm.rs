@@ -10,10 +10,10 @@ pub(crate) const DEFAULT_INTEGRATOR: &str = "ppm";
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Algorithm")]
 pub(crate) struct AlgorithmArgs {
-    /// Algorithm; `sunfleck list integrators` tells what each is for
-    #[arg(long, value_name = "NAME", default_value = DEFAULT_INTEGRATOR, hide_possible_values = true,
+    /// Algorithm; `sunfleck list integrators` tells what each is for [default: ppm]
+    #[arg(long, value_name = "NAME", hide_possible_values = true,
         value_parser = PossibleValuesParser::new(REGISTRY.iter().map(|e| e.name)))]
-    pub(crate) integrator: String,
+    pub(crate) integrator: Option<String>,
     /// A setting of the algorithm, such as `--set roulette-after=8`; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = key_value)]
     pub(crate) settings: Vec<(String, String)>,
@@ -36,4 +36,11 @@ pub(crate) struct AlgorithmArgs {
     /// Final gathering: short for `--set final-gather=…`
     #[arg(long, value_name = "VALUE")]
     pub(crate) final_gather: Option<String>,
+}
+
+impl AlgorithmArgs {
+    /// The word of the algorithm.
+    pub(crate) fn name(&self) -> &str {
+        self.integrator.as_deref().unwrap_or(DEFAULT_INTEGRATOR)
+    }
 }

@@ -18,6 +18,9 @@ pub(crate) struct SceneArgs {
     /// Surroundings from a picture in longitude and latitude: top row up, linear values are radiance
     #[arg(long, value_name = "IMAGE")]
     pub(crate) env: Option<PathBuf>,
+    /// Let scene files include others from outside of their folder
+    #[arg(long)]
+    pub(crate) allow_outside: bool,
     /// Which sides of an area light emit; the outer side is that of U × V [default: one, `two` with --compat nrenderer]
     #[arg(long, value_name = "SIDES")]
     pub(crate) area_lights: Option<SidesName>,

@@ -25,6 +25,10 @@ pub(crate) struct Eye {
     aperture: f32,
     /// Distance of what is sharp.
     focus: f32,
+    /// Left and right are exchanged.
+    mirrored: bool,
+    /// How far the middle of the picture is from the line of sight, in heights of the picture.
+    shift: [f32; 2],
 }
 
 impl Eye {
@@ -38,9 +42,11 @@ impl Eye {
             look_at: look_at.to_array(),
             up: said.up.unwrap_or(file.view.up).to_array(),
             fov: said.fov.unwrap_or(file.fov),
-            aspect: said.aspect.unwrap_or(1.0),
+            aspect: said.aspect.or(file.aspect).unwrap_or(1.0),
             aperture: said.aperture.unwrap_or(file.aperture),
             focus: said.focus.unwrap_or(default_focus),
+            mirrored: file.is_mirrored,
+            shift: file.shift,
         }
     }
 
@@ -52,6 +58,9 @@ impl Eye {
             fov: self.fov,
             aperture: self.aperture,
             focus_distance: self.focus,
+            aspect: Some(self.aspect),
+            is_mirrored: self.mirrored,
+            shift: self.shift,
         };
         settings.build(self.aspect).map_err(|e| Failure::BadInput(e.into()))
     }
@@ -64,12 +73,17 @@ impl Eye {
         format!("at {} looking at {}, fov {fov}°, aspect {aspect}{lens}", at(self.position), at(self.look_at))
     }
 
+    /// Width of the picture's plane over its height.
+    pub(crate) fn aspect(&self) -> f32 {
+        self.aspect
+    }
+
     /// Advice where pixels are not square.
     pub(crate) fn stretch(&self, spec: &FilmSpec) -> Option<String> {
         let square = spec.width as f32 / spec.height as f32;
         let stretched = (self.aspect / square - 1.0).abs() > 1e-3;
         stretched.then(|| {
-            format!("note: the picture is stretched: --aspect is {}, its pixels ask for {square}", self.aspect)
+            format!("note: the picture is stretched: its aspect is {}, its pixels ask for {square}", self.aspect)
         })
     }
 }

@@ -12,7 +12,7 @@ use crate::{
 };
 use formats::diagnostic::Diagnostic;
 use formats::image::read_image;
-use formats::load::{LoadOptions, RenderDefaults};
+use formats::load::{Hints, LoadOptions, RenderDefaults};
 use formats::scn::ScnOptions;
 use glam::{Mat3, Vec3};
 use std::path::Path;
@@ -28,6 +28,8 @@ pub(crate) struct Loaded {
     pub(crate) eye: Eye,
     /// What the files, or their format, say about the picture.
     pub(crate) defaults: RenderDefaults,
+    /// What the files say about how to render them.
+    pub(crate) hints: Hints,
     /// Names the content of all files.
     pub(crate) hash: String,
     warnings: Vec<Diagnostic>,
@@ -40,7 +42,7 @@ pub(crate) fn scene(args: &SceneArgs, camera: &CameraArgs, compat: Option<Compat
         area_light_sides: args.area_lights.map(Sides::from),
         comma: None,
     };
-    let read = formats::load(&args.files, &LoadOptions { scn })?;
+    let read = formats::load(&args.files, &LoadOptions { scn, allow_outside: args.allow_outside })?;
     let mut builder = read.builder;
     let surroundings = surroundings(args)?;
     let lit = surroundings.is_some();
@@ -53,7 +55,7 @@ pub(crate) fn scene(args: &SceneArgs, camera: &CameraArgs, compat: Option<Compat
     // The files know nothing of the flags that light the scene.
     let outdated = |w: &Diagnostic| lit && w.code == "load::no-light";
     let warnings = read.warnings.into_iter().filter(|w| !outdated(w)).collect();
-    Ok(Loaded { scene, eye, defaults: read.defaults, hash: read.hash, warnings })
+    Ok(Loaded { scene, eye, defaults: read.defaults, hints: read.hints, hash: read.hash, warnings })
 }
 
 fn surroundings(args: &SceneArgs) -> Result<Option<EnvironmentLight>, Failure> {

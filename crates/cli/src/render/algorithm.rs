@@ -1,7 +1,8 @@
 //! From flags to an integrator.
 use crate::{args::AlgorithmArgs, compat::Habits, failure::Failure};
+use formats::load::Hints;
 use std::collections::BTreeMap;
-use sunfleck::integrator::{Integrator, Params, find};
+use sunfleck::integrator::{Entry, Integrator, Params, find};
 
 /// An integrator and what the user said about it.
 pub(super) struct Algorithm {
@@ -11,11 +12,11 @@ pub(super) struct Algorithm {
 }
 
 impl Algorithm {
-    pub(super) fn new(args: &AlgorithmArgs, habits: &Habits) -> Result<Self, Failure> {
+    pub(super) fn new(args: &AlgorithmArgs, habits: &Habits, hints: &Hints) -> Result<Self, Failure> {
         // The command line accepts names of the registry only.
-        let entry =
-            find(&args.integrator).ok_or_else(|| Failure::input(format!("no integrator `{}`", args.integrator)))?;
-        let settings = settings(args, habits).map_err(Failure::input)?;
+        let entry = find(args.name()).ok_or_else(|| Failure::input(format!("no integrator `{}`", args.name())))?;
+        let mut settings = settings(args, habits).map_err(Failure::input)?;
+        add_hints(&mut settings, args, entry, hints);
         let mut params = Params::default();
         settings.iter().for_each(|(key, value)| params.set(key, value));
         let made = entry.build(params).map_err(|e| Failure::input(e.to_string()))?;
@@ -40,6 +41,19 @@ impl Algorithm {
     pub(super) fn words(&self) -> String {
         let settings: Vec<String> = self.settings.iter().map(|(k, v)| format!("{k}={v}")).collect();
         if settings.is_empty() { self.name.to_owned() } else { format!("{} ({})", self.name, settings.join(", ")) }
+    }
+}
+
+/// What the file says, where nothing else was said. How photons are sent is the file's business only where the user asks
+/// for an algorithm that sends them: our default finds better values by itself.
+fn add_hints(settings: &mut BTreeMap<String, String>, args: &AlgorithmArgs, entry: &Entry, hints: &Hints) {
+    let photons = args.integrator.as_ref().and(hints.photons.map(|n| n.to_string()));
+    let radius = args.integrator.as_ref().and(hints.radius.map(|r| r.to_string()));
+    let scatterings = hints.scatterings.map(|n| n.to_string());
+    for (name, value) in [("scatterings", scatterings), ("photons", photons), ("radius", radius)] {
+        if let Some(value) = value.filter(|_| entry.settings().any(|p| p.name == name)) {
+            settings.entry(name.to_owned()).or_insert(value);
+        }
     }
 }
 

@@ -18,7 +18,7 @@ use crate::{
 };
 use algorithm::Algorithm;
 use anyhow::Context;
-use formats::{image::MAX_PIXELS, load::RenderDefaults};
+use formats::{image::MAX_PIXELS, load::Hints};
 use interrupt::Interrupt;
 use outputs::Outputs;
 use record::{Record, StoppedBy};
@@ -31,15 +31,17 @@ use sunfleck::{
 
 pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     let habits = Habits::of(args.compat);
-    let algorithm = Algorithm::new(&args.algorithm, &habits)?;
+    // What was said is checked before a scene is read, which may take long.
+    Algorithm::new(&args.algorithm, &habits, &Hints::default())?;
     let outputs = Outputs::check(&args.output, &args.scene.files)?;
     use_threads(args.budget.threads)?;
     let loaded = load::scene(&args.scene, &args.camera, args.compat)?;
+    let algorithm = Algorithm::new(&args.algorithm, &habits, &loaded.hints)?;
     let settings = Settings {
-        spec: film_spec(&args.picture, &loaded.defaults)?,
+        spec: film_spec(&args.picture, &loaded)?,
         seed: args.budget.seed,
         color: args.picture.color.of(&loaded.scene),
-        budget: budget(&args.budget, &habits, algorithm.samples_per_pass()),
+        budget: budget(&args.budget, loaded.hints.passes.unwrap_or(habits.passes), algorithm.samples_per_pass()),
     };
     let interrupt = Interrupt::listen().map_err(Failure::Work)?;
     let job = Job { args, loaded, algorithm, settings };
@@ -104,8 +106,15 @@ impl Job<'_> {
     }
 }
 
-fn film_spec(picture: &PictureArgs, defaults: &RenderDefaults) -> Result<FilmSpec, Failure> {
-    let (width, height) = (picture.width.unwrap_or(defaults.width), picture.height.unwrap_or(defaults.height));
+fn film_spec(picture: &PictureArgs, loaded: &Loaded) -> Result<FilmSpec, Failure> {
+    let defaults = &loaded.defaults;
+    // Where a file gives the size of its picture, one side changed changes the other too.
+    let across = |side: Option<u32>, factor: f32| {
+        side.filter(|_| loaded.hints.width.is_some()).map(|n| (n as f32 * factor).round().clamp(1.0, 1e6) as u32)
+    };
+    let aspect = loaded.eye.aspect();
+    let width = picture.width.or(across(picture.height, aspect)).unwrap_or(defaults.width);
+    let height = picture.height.or(across(picture.width, 1.0 / aspect)).unwrap_or(defaults.height);
     let pixels = u64::from(width) * u64::from(height);
     if pixels > MAX_PIXELS {
         let message = format!("a picture of {width}×{height} has {pixels} pixels, more than {MAX_PIXELS}");
@@ -116,9 +125,9 @@ fn film_spec(picture: &PictureArgs, defaults: &RenderDefaults) -> Result<FilmSpe
 }
 
 /// With a time and no passes, only the time counts.
-fn budget(args: &BudgetArgs, habits: &Habits, samples_per_pass: u64) -> Budget {
+fn budget(args: &BudgetArgs, default_passes: u64, samples_per_pass: u64) -> Budget {
     let said = args.passes.or(args.spp.map(|n| n.div_ceil(samples_per_pass)));
-    let passes = if args.time.is_some() { said } else { said.or(Some(habits.passes)) };
+    let passes = if args.time.is_some() { said } else { said.or(Some(default_passes)) };
     Budget { passes, time: args.time }
 }
 

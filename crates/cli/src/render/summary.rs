@@ -14,14 +14,16 @@ pub(super) fn before(job: &Job, outputs: &Outputs) -> String {
     let passes = settings.budget.passes.map(|n| things(n, "pass", "passes"));
     let until = passes.into_iter().chain(settings.budget.time.map(time)).collect::<Vec<_>>().join(" or ");
     let color = if settings.color == ColorMode::Spectral { "spectral, " } else { "" };
-    let rows = [
-        ("scene", files),
-        ("", loaded.words()),
-        ("camera", loaded.eye.words()),
+    let mut rows = vec![("scene", files), ("", loaded.words()), ("camera", loaded.eye.words())];
+    if let Some(name) = &loaded.hints.integrator {
+        rows.push(("", format!("asks for `{name}`; what renders here is said by --integrator only")));
+    }
+    rows.extend([
         ("integrator", format!("{}, seed {}", algorithm.words(), settings.seed)),
         ("picture", format!("{}×{}, {color}{until} → {}", spec.width, spec.height, outputs.names())),
-    ];
-    let text = aligned(&rows.map(|(name, value)| [name.to_owned(), value]));
+    ]);
+    let rows: Vec<[String; 2]> = rows.into_iter().map(|(name, value)| [name.to_owned(), value]).collect();
+    let text = aligned(&rows);
     text + &loaded.eye.stretch(&spec).unwrap_or_default()
 }
 

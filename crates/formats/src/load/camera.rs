@@ -1,7 +1,7 @@
 //! What a picture needs besides the scene. NRenderer keeps all of it in its window, so these are its defaults.
 
 use crate::image::Tone;
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 use sunfleck::camera::{Perspective, PerspectiveError, View};
 use sunfleck::film::Filter;
 
@@ -16,12 +16,18 @@ pub struct CameraSettings {
     pub aperture: f32,
     /// Distance of the sharp plane in world units; matters with an aperture only.
     pub focus_distance: f32,
+    /// Width of the picture's plane over its height, if the file says so.
+    pub aspect: Option<f32>,
+    /// Whether left and right are exchanged.
+    pub is_mirrored: bool,
+    /// How far the middle of the picture is from the line of sight, to the right and up, in heights of the picture.
+    pub shift: [f32; 2],
 }
 
 impl Default for CameraSettings {
     fn default() -> Self {
         let view = View { position: Vec3::new(0.0, 0.0, -3.0), look_at: Vec3::ZERO, up: Vec3::Y };
-        Self { view, fov: 40.0, aperture: 0.0, focus_distance: 0.1 }
+        Self { view, fov: 40.0, aperture: 0.0, focus_distance: 0.1, aspect: None, is_mirrored: false, shift: [0.0; 2] }
     }
 }
 
@@ -31,7 +37,8 @@ impl CameraSettings {
     /// # Errors
     /// A number out of its range.
     pub fn build(&self, aspect: f32) -> Result<Perspective, PerspectiveError> {
-        let camera = Perspective::new(&self.view, self.fov, aspect)?;
+        let camera = Perspective::new(&self.view, self.fov, aspect)?.with_shift(Vec2::from_array(self.shift));
+        let camera = if self.is_mirrored { camera.mirrored() } else { camera };
         if self.aperture == 0.0 { Ok(camera) } else { camera.with_lens(self.aperture, self.focus_distance) }
     }
 }
@@ -53,4 +60,23 @@ impl Default for RenderDefaults {
     fn default() -> Self {
         Self { width: 500, height: 500, filter: Filter::Box, tone: Tone::Srgb }
     }
+}
+
+/// What a file says about how to render it: defaults where the user says nothing.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Hints {
+    /// Width in pixels.
+    pub width: Option<u32>,
+    /// Height in pixels.
+    pub height: Option<u32>,
+    /// Passes, each of one sample a pixel.
+    pub passes: Option<u64>,
+    /// Scatterings on a path from light to eye at most.
+    pub scatterings: Option<u32>,
+    /// The algorithm, by its name in the file's own renderer. It is told of, not used.
+    pub integrator: Option<String>,
+    /// Photons in one pass, for algorithms that send them.
+    pub photons: Option<u64>,
+    /// First radius of the photons' kernel in world units, for algorithms that have one.
+    pub radius: Option<f64>,
 }

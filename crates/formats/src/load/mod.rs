@@ -9,7 +9,7 @@ mod target;
 #[cfg(test)]
 mod tests;
 
-pub use camera::{CameraSettings, RenderDefaults};
+pub use camera::{CameraSettings, Hints, RenderDefaults};
 pub use target::Target;
 
 use crate::diagnostic::{Diagnostic, Error};
@@ -25,11 +25,15 @@ use sunfleck::scene::SceneBuilder;
 pub struct LoadOptions {
     /// For NRenderer's scenes.
     pub scn: ScnOptions,
+    /// Whether a file may include others from outside of its folder.
+    pub allow_outside: bool,
 }
 
 /// A scene that was read, and what its files say or imply about the picture.
 #[derive(Clone, Debug)]
 pub struct Loaded {
+    /// What the files say about how to render them.
+    pub hints: Hints,
     /// The scene, without a camera.
     pub builder: SceneBuilder,
     /// The camera of the files, or the default of their format.
@@ -54,7 +58,7 @@ pub type LoadFn = fn(&Path, &LoadOptions, &mut Target) -> Result<(), Error>;
 pub struct SceneFormat {
     /// Its usual name.
     pub name: &'static str,
-    /// Extensions of file names, in lower case.
+    /// Ends of file names behind a dot, in lower case.
     pub extensions: &'static [&'static str],
     /// One line for lists.
     pub about: &'static str,
@@ -63,7 +67,8 @@ pub struct SceneFormat {
 }
 
 /// All formats of scene files.
-pub const SCENE_FORMATS: &[SceneFormat] = &[crate::scn::FORMAT, crate::obj::FORMAT];
+pub const SCENE_FORMATS: &[SceneFormat] =
+    &[crate::scn::FORMAT, crate::obj::FORMAT, crate::ply::FORMAT, crate::pbrt::FORMAT];
 
 /// Reads one or several files into one scene.
 ///
@@ -91,14 +96,18 @@ pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
     }
     warn_of_darkness(&mut target);
     let compat = options.scn.compat;
+    let ours = RenderDefaults::default();
+    let hints = target.hints.unwrap_or_default();
     Ok(Loaded {
         builder: target.builder,
-        camera: CameraSettings::default(),
+        camera: target.camera.unwrap_or_default(),
         defaults: RenderDefaults {
             filter: if compat { Filter::NRenderer } else { Filter::Box },
             tone: if compat { Tone::SquareRoot } else { Tone::Srgb },
-            ..RenderDefaults::default()
+            width: hints.width.unwrap_or(ours.width),
+            height: hints.height.unwrap_or(ours.height),
         },
+        hints,
         warnings: target.warnings,
         hash: target.hash.finish(options),
         surfaces: target.surfaces,
@@ -107,10 +116,12 @@ pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
 }
 
 fn format_of(path: &Path) -> Result<&'static SceneFormat, Error> {
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
-    if let Some(format) = SCENE_FORMATS.iter().find(|f| f.extensions.contains(&extension.as_str())) {
+    let name = path.file_name().map(|n| n.to_string_lossy().to_lowercase()).unwrap_or_default();
+    let ends_in = |e: &&str| name.strip_suffix(*e).is_some_and(|stem| stem.ends_with('.'));
+    if let Some(format) = SCENE_FORMATS.iter().find(|f| f.extensions.iter().any(&ends_in)) {
         return Ok(format);
     }
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     let message = match extension.as_str() {
         "" => "a file name without an extension does not tell the format".to_owned(),
         _ => format!("scene files of the format `{extension}` are not supported"),

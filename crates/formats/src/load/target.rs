@@ -1,9 +1,10 @@
 //! The scene that files are read into.
 
-use super::InputHash;
+use super::{CameraSettings, Hints, InputHash};
 use crate::diagnostic::{Diagnostic, Sink};
+use glam::Affine3A;
 use sunfleck::light::{Light, Sides};
-use sunfleck::scene::{MaterialId, SceneBuilder, SurfaceDef};
+use sunfleck::scene::{MaterialId, ObjectId, SceneBuilder, SurfaceDef};
 use sunfleck::shape::Shape;
 use sunfleck::spectrum::Illuminant;
 
@@ -11,6 +12,10 @@ use sunfleck::spectrum::Illuminant;
 pub struct Target {
     /// Findings about the file that is being read.
     pub sink: Sink,
+    /// The eye, if a file has one.
+    pub(crate) camera: Option<CameraSettings>,
+    /// What a file says about how to render it.
+    pub(crate) hints: Option<Hints>,
     pub(super) builder: SceneBuilder,
     pub(super) warnings: Vec<Diagnostic>,
     pub(super) hash: InputHash,
@@ -22,6 +27,8 @@ impl Target {
     pub(super) fn new() -> Self {
         Self {
             sink: Sink::default(),
+            camera: None,
+            hints: None,
             builder: SceneBuilder::new(),
             warnings: Vec::new(),
             hash: InputHash::new(),
@@ -46,6 +53,23 @@ impl Target {
         self.surfaces += 1;
         self.lights += usize::from(emission.is_some());
         self.builder.surface(SurfaceDef { shape, material, emission });
+    }
+
+    /// Adds an object, to be placed.
+    pub(crate) fn object(&mut self, surfaces: Vec<SurfaceDef>) -> ObjectId {
+        self.builder.object(surfaces)
+    }
+
+    /// Places an object in the world.
+    pub(crate) fn place(&mut self, object: ObjectId, world_from_object: Affine3A) {
+        self.surfaces += 1;
+        self.builder.place(object, world_from_object);
+    }
+
+    /// Places an object that moves from one place to another while the shutter is open.
+    pub(crate) fn place_moving(&mut self, object: ObjectId, from: Affine3A, to: Affine3A) {
+        self.surfaces += 1;
+        self.builder.place_moving(object, from, to);
     }
 
     /// Adds a light that is no surface.

@@ -28,7 +28,7 @@ fn load_files(files: &[(&str, &str)], options: &LoadOptions) -> (TempDir, Result
 }
 
 fn load_scn(text: &str, options: ScnOptions) -> Loaded {
-    load_files(&[("a.scn", text)], &LoadOptions { scn: options }).1.unwrap()
+    load_files(&[("a.scn", text)], &LoadOptions { scn: options, ..LoadOptions::default() }).1.unwrap()
 }
 
 fn scene(loaded: Loaded) -> Scene {
@@ -166,7 +166,7 @@ fn the_hash_depends_on_every_input_and_nothing_else() {
     assert_eq!(first.len(), 32);
     assert_eq!(first, hash("newmtl A\n", &plain));
     assert_ne!(first, hash("newmtl B\n", &plain));
-    let compat = LoadOptions { scn: ScnOptions { compat: true, ..ScnOptions::default() } };
+    let compat = LoadOptions { scn: ScnOptions { compat: true, ..ScnOptions::default() }, ..LoadOptions::default() };
     assert_ne!(first, hash("newmtl A\n", &compat));
 }
 

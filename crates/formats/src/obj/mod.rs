@@ -21,3 +21,4 @@ pub use libraries::read_libraries;
 pub use mtl::{MtlMaterial, parse_mtl};
 pub use parser::{MAX_CORNERS, parse};
 pub use tree::{Corner, Library, ObjFile, ObjMesh};
+pub(crate) use triangulate::Triangulator;

@@ -7,7 +7,7 @@ use glam::{Vec2, Vec3};
 const BUDGET: u64 = 200_000_000;
 
 /// Cuts the polygons of one file.
-pub(super) struct Triangulator<'p> {
+pub(crate) struct Triangulator<'p> {
     positions: &'p [[f32; 3]],
     budget: u64,
     exhausted: bool,
@@ -16,17 +16,17 @@ pub(super) struct Triangulator<'p> {
 }
 
 impl<'p> Triangulator<'p> {
-    pub(super) fn new(positions: &'p [[f32; 3]]) -> Self {
+    pub(crate) fn new(positions: &'p [[f32; 3]]) -> Self {
         Self { positions, budget: BUDGET, exhausted: false, flat: Vec::new(), ring: Vec::new() }
     }
 
     /// Whether some polygon was cut without care.
-    pub(super) fn is_exhausted(&self) -> bool {
+    pub(crate) fn is_exhausted(&self) -> bool {
         self.exhausted
     }
 
     /// Appends `corners.len() - 2` triangles that keep the polygon's orientation.
-    pub(super) fn triangulate(&mut self, corners: &[Corner], out: &mut Vec<[Corner; 3]>) {
+    pub(crate) fn triangulate(&mut self, corners: &[Corner], out: &mut Vec<[Corner; 3]>) {
         if corners.len() == 3 || self.flatten(corners) {
             return fan(corners, out);
         }

@@ -23,6 +23,8 @@ pub struct Perspective {
     forward: Vec3,
     /// Width and height of the picture at distance 1.
     size: Vec2,
+    /// The middle of the picture at distance 1, to the right and up.
+    centre: Vec2,
     lens_radius: f32,
     focus_distance: f32,
 }
@@ -73,6 +75,7 @@ impl Perspective {
             up: right.cross(forward),
             forward,
             size: Vec2::new(height * aspect, height),
+            centre: Vec2::ZERO,
             lens_radius: 0.0,
             focus_distance: 1.0,
         })
@@ -93,6 +96,15 @@ impl Perspective {
             });
         }
         Ok(Self { lens_radius: 0.5 * aperture, focus_distance, ..self })
+    }
+    /// Moves the picture in its plane, to the right and up, in heights of the picture: a part cut out of a larger one, or
+    /// upright walls as by a shift lens.
+    pub fn with_shift(self, shift: Vec2) -> Self {
+        Self { centre: shift * self.size.y, ..self }
+    }
+    /// Exchanges left and right, as in programs whose axes are left-handed.
+    pub fn mirrored(self) -> Self {
+        Self { right: -self.right, ..self }
     }
     /// The eye.
     pub fn position(&self) -> Vec3 {
@@ -118,7 +130,7 @@ impl Perspective {
 impl Project for Perspective {
     #[inline]
     fn ray(&self, raster: Vec2, u_lens: Vec2) -> CameraRay {
-        let (x, y) = ((raster.x - 0.5) * self.size.x, (0.5 - raster.y) * self.size.y);
+        let (x, y) = (self.centre.x + (raster.x - 0.5) * self.size.x, self.centre.y + (0.5 - raster.y) * self.size.y);
         let target = self.focus_distance * (self.forward + x * self.right + y * self.up);
         let lens = self.lens_offset(u_lens);
         let d = (target - lens).normalize();
@@ -137,7 +149,8 @@ impl Project for Perspective {
         }
         // Where the ray from the lens meets the plane in focus, scaled to distance 1.
         let focus = (lens - wi * (self.focus_distance / cos)) / self.focus_distance;
-        let raster = Vec2::new(0.5 + focus.dot(self.right) / self.size.x, 0.5 - focus.dot(self.up) / self.size.y);
+        let plane = (Vec2::new(focus.dot(self.right), focus.dot(self.up)) - self.centre) / self.size;
+        let raster = Vec2::new(0.5 + plane.x, 0.5 - plane.y);
         Some(CameraSample { p, wi, raster, importance: 1.0 / (self.solid_angle(cos) * to.length_squared()) })
     }
     /// The eye moves along a straight line and turns at constant speed; picture and lens change linearly.
@@ -150,6 +163,7 @@ impl Project for Perspective {
             up: m.matrix3.y_axis.into(),
             forward: m.matrix3.z_axis.into(),
             size: self.size.lerp(to.size, time),
+            centre: self.centre.lerp(to.centre, time),
             lens_radius: lerp(self.lens_radius, to.lens_radius),
             focus_distance: lerp(self.focus_distance, to.focus_distance),
         })

@@ -1,0 +1,427 @@
+//! What each directive does.
+
+use super::files::Files;
+use super::lexer::Kind;
+use super::params::{Found, Params, number};
+use super::picture::Picture;
+use super::state::{self, Attributes, Cover};
+use super::textures::Textures;
+use super::tokens::{At, Tokens};
+use crate::diagnostic::Diagnostic;
+use crate::lines::shortened;
+use crate::load::Target;
+use glam::{DAffine3, DVec3};
+use std::collections::{HashMap, HashSet};
+use std::rc::Rc;
+use sunfleck::scene::{ObjectId, SurfaceDef};
+
+const DIRECTIVES: [&str; 36] = [
+    "Accelerator",
+    "ActiveTransform",
+    "AreaLightSource",
+    "Attribute",
+    "AttributeBegin",
+    "AttributeEnd",
+    "Camera",
+    "ColorSpace",
+    "ConcatTransform",
+    "CoordSysTransform",
+    "CoordinateSystem",
+    "Film",
+    "Identity",
+    "Import",
+    "Include",
+    "Integrator",
+    "LightSource",
+    "LookAt",
+    "MakeNamedMaterial",
+    "MakeNamedMedium",
+    "Material",
+    "MediumInterface",
+    "NamedMaterial",
+    "ObjectBegin",
+    "ObjectEnd",
+    "ObjectInstance",
+    "Option",
+    "PixelFilter",
+    "ReverseOrientation",
+    "Rotate",
+    "Sampler",
+    "Scale",
+    "Shape",
+    "Texture",
+    "Transform",
+    "Translate",
+];
+const MORE_DIRECTIVES: [&str; 6] =
+    ["TransformBegin", "TransformEnd", "TransformTimes", "WorldBegin", "WorldEnd", "SurfaceIntegrator"];
+
+/// Blocks may be nested this deep.
+const MAX_BLOCKS: usize = 10_000;
+
+/// What is saved at the beginning of a block.
+struct Block {
+    /// Which directive began it.
+    begin: &'static str,
+    at: At,
+    saved: Attributes,
+}
+
+/// Builds the scene while reading.
+pub(super) struct Importer<'t> {
+    pub(super) target: &'t mut Target,
+    pub(super) files: Files,
+    pub(super) tokens: Tokens,
+    pub(super) state: Attributes,
+    blocks: Vec<Block>,
+    pub(super) coordinates: HashMap<String, [DAffine3; 2]>,
+    pub(super) named_materials: HashMap<String, Cover>,
+    pub(super) textures: Textures,
+    pub(super) objects: HashMap<String, Option<ObjectId>>,
+    /// The object that is being defined.
+    pub(super) object: Option<(String, Vec<SurfaceDef>)>,
+    pub(super) picture: Picture,
+    told: HashSet<String>,
+}
+
+impl<'t> Importer<'t> {
+    pub(super) fn new(target: &'t mut Target, files: Files, tokens: Tokens) -> Self {
+        Self {
+            target,
+            files,
+            tokens,
+            state: Attributes::default(),
+            blocks: Vec::new(),
+            coordinates: HashMap::new(),
+            named_materials: HashMap::new(),
+            textures: Textures::default(),
+            objects: HashMap::new(),
+            object: None,
+            picture: Picture::default(),
+            told: HashSet::new(),
+        }
+    }
+
+    /// Reads everything; findings go to the target's sink.
+    pub(super) fn run(&mut self) {
+        while !self.target.sink.is_full() {
+            match self.step() {
+                Ok(true) => {}
+                Ok(false) => break,
+                Err(error) => {
+                    self.target.sink.error(*error);
+                    // After a mistake in the text itself, what follows means nothing.
+                    if !self.recover() {
+                        break;
+                    }
+                }
+            }
+        }
+        for block in std::mem::take(&mut self.blocks) {
+            let message = format!("`{}` has no end", block.begin);
+            let warning = Diagnostic::warning("pbrt::open-block", message);
+            self.target.sink.warn("pbrt::open-block", || block.at.tell(warning, "begins here"));
+        }
+        if self.target.sink.is_ok()
+            && let Err(error) = self.finish_picture()
+        {
+            self.target.sink.error(*error);
+        }
+    }
+
+    /// Passes over what cannot be a directive. False at the end.
+    fn recover(&mut self) -> bool {
+        loop {
+            match self.tokens.peek() {
+                Ok(Some(token)) if token.kind == Kind::Word && is_directive(&token.at.text()) => return true,
+                Ok(Some(_)) => {
+                    if self.tokens.next().is_err() {
+                        return false;
+                    }
+                }
+                Ok(None) | Err(_) => return false,
+            }
+        }
+    }
+
+    /// One directive; false at the end of the file.
+    fn step(&mut self) -> Found<bool> {
+        let Some(token) = self.tokens.next()? else { return Ok(false) };
+        let word = token.at.text();
+        if token.kind != Kind::Word {
+            let message = format!("`{}` where a directive should stand", shortened(&word));
+            return Err(Box::new(token.at.tell(Diagnostic::error("pbrt::stray", message), "")));
+        }
+        self.directive(&word, token.at)?;
+        Ok(true)
+    }
+
+    fn directive(&mut self, word: &str, at: At) -> Found<()> {
+        match word {
+            "Identity" => self.state.change(|_| DAffine3::IDENTITY),
+            "Translate" => {
+                let v = DVec3::from_array(self.numbers(&at)?);
+                self.state.concat(DAffine3::from_translation(v));
+            }
+            "Scale" => {
+                let v = DVec3::from_array(self.numbers(&at)?);
+                self.state.concat(DAffine3::from_scale(v));
+            }
+            "Rotate" => {
+                let [angle, x, y, z] = self.numbers(&at)?;
+                let axis = DVec3::new(x, y, z).try_normalize();
+                let axis = axis.ok_or_else(|| bad(&at, "pbrt::transform", "a rotation needs an axis"))?;
+                self.state.concat(DAffine3::from_axis_angle(axis, angle.to_radians()));
+            }
+            "LookAt" => {
+                let [a, b, c, d, e, f, g, h, i] = self.numbers(&at)?;
+                let m = state::look_at(DVec3::new(a, b, c), DVec3::new(d, e, f), DVec3::new(g, h, i));
+                let message = "the eye, the point looked at and the direction up must not lie in a line";
+                self.state.concat(m.ok_or_else(|| bad(&at, "pbrt::transform", message))?);
+            }
+            "Transform" => {
+                let m = self.matrix(&at)?;
+                self.state.change(|_| m);
+            }
+            "ConcatTransform" => {
+                let m = self.matrix(&at)?;
+                self.state.concat(m);
+            }
+            "CoordinateSystem" => {
+                let name = self.string(&at)?;
+                self.coordinates.insert(name, self.state.ctm);
+            }
+            "CoordSysTransform" => self.coord_sys_transform(&at)?,
+            "ActiveTransform" => self.active_transform(&at)?,
+            "TransformTimes" => drop(self.numbers::<2>(&at)?),
+            "AttributeBegin" => self.begin("AttributeBegin", at)?,
+            "TransformBegin" => self.begin("TransformBegin", at)?,
+            "AttributeEnd" => self.end("AttributeBegin", &at)?,
+            "TransformEnd" => self.end("TransformBegin", &at)?,
+            "ObjectBegin" => self.object_begin(at)?,
+            "ObjectEnd" => self.object_end(&at)?,
+            "ObjectInstance" => self.object_instance(&at)?,
+            "ReverseOrientation" => self.state.reverse = !self.state.reverse,
+            "WorldBegin" => self.world_begin(),
+            "WorldEnd" => {}
+            "Include" | "Import" => self.include(&at)?,
+            _ => return self.with_params(word, at),
+        }
+        Ok(())
+    }
+
+    /// Directives with parameters behind them.
+    fn with_params(&mut self, word: &str, at: At) -> Found<()> {
+        if !is_directive(word) {
+            let message = format!("an unknown directive `{}`", shortened(word));
+            let error = at.tell(Diagnostic::error("pbrt::unknown-directive", message), "");
+            return Err(Box::new(error.one_of(word, DIRECTIVES.into_iter().chain(MORE_DIRECTIVES))));
+        }
+        if word == "Option" {
+            return Params::read(&mut self.tokens, at).map(drop);
+        }
+        let name = self.string(&at)?;
+        match word {
+            "MediumInterface" => return self.medium_interface(&at),
+            "NamedMaterial" => return self.named_material(&name, &at),
+            "ColorSpace" => {
+                if name != "srgb" {
+                    let message = format!("colours of the space `{name}` are taken as sRGB's");
+                    self.warn_once("pbrt::colour-space", &name, || at.tell(warning("pbrt::colour-space", message), ""));
+                }
+                return Ok(());
+            }
+            "Texture" => return self.texture(&name, &at),
+            _ => {}
+        }
+        let params = Params::read(&mut self.tokens, at)?;
+        match word {
+            "Attribute" => self.attribute(&name, params)?,
+            "Camera" => {
+                let world_from_camera = self.state.ctm.map(|m| m.inverse());
+                self.coordinates.insert("camera".to_owned(), world_from_camera);
+                self.picture.camera = Some((name, params, self.state.world_from_object()));
+            }
+            "Film" => self.film(&name, &params)?,
+            "Sampler" => self.picture.sampler = Some(params),
+            "PixelFilter" => self.picture.filter = Some((name, params)),
+            "Integrator" | "SurfaceIntegrator" => self.picture.integrator = Some((name, params)),
+            "Shape" => self.shape(&name, params)?,
+            "LightSource" => self.light_source(&name, params)?,
+            "AreaLightSource" => self.state.area_light = Some(Rc::new(self.area_light(&name, params)?)),
+            "Material" => self.state.cover = Some(self.material(&name, params)?),
+            "MakeNamedMaterial" => self.make_named_material(&name, params)?,
+            "MakeNamedMedium" => {
+                let message = format!("the medium `{}` is left out: volumes are not supported yet", shortened(&name));
+                self.warn_once("pbrt::medium", "", || params.at.tell(warning("pbrt::medium", message), ""));
+            }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Exactly `N` numbers, in brackets or not.
+    fn numbers<const N: usize>(&mut self, at: &At) -> Found<[f64; N]> {
+        let opened = self.tokens.next_if(Kind::Open)?.is_some();
+        let mut numbers = [0.0; N];
+        for value in &mut numbers {
+            let Some(token) = self.tokens.next_if(Kind::Number)? else {
+                let error = at.tell(Diagnostic::error("pbrt::numbers", "too few numbers"), "behind this");
+                return Err(Box::new(error.expected(format!("{N} numbers"))));
+            };
+            *value = number(&token)?;
+        }
+        if opened && self.tokens.next_if(Kind::Close)?.is_none() {
+            let error = at.tell(Diagnostic::error("pbrt::numbers", "too many numbers"), "behind this");
+            return Err(Box::new(error.expected(format!("{N} numbers"))));
+        }
+        Ok(numbers)
+    }
+
+    fn matrix(&mut self, at: &At) -> Found<DAffine3> {
+        let m = state::matrix(&self.numbers(at)?);
+        m.ok_or_else(|| {
+            let error = bad(at, "pbrt::transform", "this matrix is no affine transformation");
+            Box::new(error.expected("a last row of 0 0 0 1 (every fourth number)"))
+        })
+    }
+
+    /// The string behind a directive.
+    pub(super) fn string(&mut self, at: &At) -> Found<String> {
+        if let Some(token) = self.tokens.next_if(Kind::String)? {
+            return Ok(token.at.text());
+        }
+        let error = at.tell(Diagnostic::error("pbrt::no-name", "this directive needs a name"), "");
+        Err(Box::new(error.expected("a string in quotes")))
+    }
+
+    fn coord_sys_transform(&mut self, at: &At) -> Found<()> {
+        let name = self.string(at)?;
+        match self.coordinates.get(&name) {
+            Some(ctm) => self.state.ctm = *ctm,
+            None => return Err(unknown(at, "coordinate system", &name, self.coordinates.keys().map(String::as_str))),
+        }
+        Ok(())
+    }
+
+    fn active_transform(&mut self, at: &At) -> Found<()> {
+        let Some(token) = self.tokens.next_if(Kind::Word)? else {
+            return Err(Box::new(bad(at, "pbrt::transform", "which one?").expected("StartTime, EndTime or All")));
+        };
+        let word = token.at.text();
+        self.state.active = match word.as_str() {
+            "StartTime" => [true, false],
+            "EndTime" => [false, true],
+            "All" => [true, true],
+            _ => return Err(unknown(&token.at, "time", &word, ["StartTime", "EndTime", "All"])),
+        };
+        Ok(())
+    }
+
+    pub(super) fn begin(&mut self, begin: &'static str, at: At) -> Found<()> {
+        if self.blocks.len() >= MAX_BLOCKS {
+            return Err(bad(&at, "pbrt::depth", "too many blocks inside of one another"));
+        }
+        self.blocks.push(Block { begin, at, saved: self.state.clone() });
+        Ok(())
+    }
+
+    /// Ends a block. `TransformEnd` brings the transformation back only.
+    pub(super) fn end(&mut self, begin: &'static str, at: &At) -> Found<()> {
+        match self.blocks.pop_if(|b| b.begin == begin) {
+            Some(block) if begin == "TransformBegin" => {
+                (self.state.ctm, self.state.active) = (block.saved.ctm, block.saved.active);
+            }
+            Some(block) => self.state = block.saved,
+            None => {
+                let error = bad(at, "pbrt::unmatched", "nothing to end here");
+                return Err(match self.blocks.last() {
+                    Some(open) => Box::new(error.see(&open.at.source, open.at.span, "the block that is open")),
+                    None => error,
+                });
+            }
+        }
+        Ok(())
+    }
+
+    fn world_begin(&mut self) {
+        self.state.ctm = [DAffine3::IDENTITY; 2];
+        self.state.active = [true; 2];
+        self.coordinates.insert("world".to_owned(), self.state.ctm);
+    }
+
+    fn include(&mut self, at: &At) -> Found<()> {
+        let Some(token) = self.tokens.next_if(Kind::String)? else {
+            return Err(Box::new(bad(at, "pbrt::no-name", "which file?").expected("a file name in quotes")));
+        };
+        let source = self.files.include(&token.at, self.target)?;
+        self.tokens.include(source, &token.at)
+    }
+
+    /// The second name is optional: version 3 gives one for both sides.
+    fn medium_interface(&mut self, at: &At) -> Found<()> {
+        let second = self.tokens.next_if(Kind::String)?;
+        drop(second);
+        let message = "the space between surfaces is taken as empty: volumes are not supported yet";
+        self.warn_once("pbrt::medium", "interface", || at.tell(warning("pbrt::medium", message), ""));
+        Ok(())
+    }
+
+    fn attribute(&mut self, kind: &str, params: Params) -> Found<()> {
+        const KINDS: [&str; 5] = ["shape", "light", "material", "medium", "texture"];
+        if !KINDS.contains(&kind) {
+            return Err(unknown(&params.at, "kind", kind, KINDS));
+        }
+        let all = Rc::make_mut(&mut self.state.defaults);
+        all.entry(kind.to_owned()).or_default().extend(params.into_list());
+        Ok(())
+    }
+
+    /// What was said by `Attribute` for all directives of a kind.
+    pub(super) fn with_defaults(&self, kind: &str, params: Params) -> Params {
+        match self.state.defaults.get(kind) {
+            Some(defaults) => params.with_defaults(defaults),
+            None => params,
+        }
+    }
+
+    /// Tells of parameters that meant nothing.
+    pub(super) fn tell_unused(&mut self, params: &Params) {
+        for finding in params.unused() {
+            self.target.sink.warn("pbrt::unused-parameter", || finding);
+        }
+    }
+
+    /// A warning that is told once for each `code` and `key`.
+    pub(super) fn warn_once(&mut self, code: &'static str, key: &str, make: impl FnOnce() -> Diagnostic) {
+        if self.told.insert(format!("{code} {key}")) {
+            self.target.sink.warn(code, make);
+        }
+    }
+}
+
+fn is_directive(word: &str) -> bool {
+    DIRECTIVES.contains(&word) || MORE_DIRECTIVES.contains(&word)
+}
+
+/// An error at a directive.
+pub(super) fn bad(at: &At, code: &'static str, message: &str) -> Box<Diagnostic> {
+    Box::new(at.tell(Diagnostic::error(code, message), ""))
+}
+
+pub(super) fn warning(code: &'static str, message: impl Into<String>) -> Diagnostic {
+    Diagnostic::warning(code, message)
+}
+
+/// A name that is not in the list.
+pub(super) fn unknown<'n>(
+    at: &At,
+    what: &str,
+    name: &str,
+    names: impl IntoIterator<Item = &'n str>,
+) -> Box<Diagnostic> {
+    let mut names: Vec<&str> = names.into_iter().collect();
+    names.sort_unstable();
+    let error = at.tell(Diagnostic::error("pbrt::unknown-name", format!("no {what} `{}`", shortened(name))), "");
+    Box::new(error.one_of(name, names))
+}

@@ -1,0 +1,29 @@
+//! pbrt scenes, version 4 and the names of version 3.
+//!
+//! The way of a file: [`lexer`] cuts bytes into tokens, [`tokens`] joins the tokens of all included files into one
+//! stream, [`params`] reads the parameters behind a directive, [`state`] keeps what `AttributeBegin` saves, and
+//! [`directives`] does what each directive says: shapes, lights, materials, textures and the picture, one file each.
+//! The scene is built while reading, as pbrt does, so a file may be larger than what it describes.
+//!
+//! What pbrt means is taken from its documented file format (pbrt.org, "pbrt-v4 Input File Format" and the one of
+//! version 3) and from the book, Pharr, Jakob & Humphreys, "Physically Based Rendering", 2016 and 2023.
+
+mod curved;
+mod directives;
+mod files;
+mod import;
+mod infinite;
+mod lexer;
+mod lights;
+mod materials;
+mod params;
+mod picture;
+mod shapes;
+mod spectra;
+mod state;
+#[cfg(test)]
+mod tests;
+mod textures;
+mod tokens;
+
+pub(crate) use import::FORMAT;

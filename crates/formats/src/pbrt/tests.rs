@@ -1,0 +1,210 @@
+//! Whole scenes, written to a folder of their own.
+
+use crate::load::{LoadOptions, Loaded, load};
+use crate::{Diagnostic, Error};
+use glam::{Vec2, Vec3};
+use insta::assert_snapshot;
+use sunfleck::camera::Project;
+use sunfleck::light::Light;
+use sunfleck::math::Ray;
+use sunfleck::scene::Scene;
+use sunfleck::spectrum::Wavelengths;
+
+/// Loads the first of these files; the others lie beside it. Messages call the folder FOLDER.
+fn load_files(files: &[(&str, &str)]) -> (String, Result<Loaded, Error>) {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, text) in files {
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let loaded = load(&[folder.path().join(files[0].0)], &LoadOptions::default());
+    let (errors, warnings) = match &loaded {
+        Ok(loaded) => (&[][..], &loaded.warnings),
+        Err(error) => (&error.errors[..], &error.warnings),
+    };
+    let texts: Vec<String> = errors.iter().chain(warnings).map(Diagnostic::to_string).collect();
+    (texts.join("\n\n").replace(&folder.path().display().to_string(), "FOLDER"), loaded)
+}
+
+fn loaded(text: &str) -> Loaded {
+    load_files(&[("a.pbrt", text)]).1.unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn scene(text: &str) -> Scene {
+    loaded(text).builder.build().unwrap()
+}
+
+fn told(text: &str) -> String {
+    load_files(&[("a.pbrt", text)]).0
+}
+
+/// Whether a ray from far away along `-from` meets the outer side at the distance of `at`.
+fn outer_normal(scene: &Scene, from: Vec3, to: Vec3) -> Option<Vec3> {
+    let world = scene.world(Wavelengths::Rgb, 0.0);
+    let ray = Ray { o: from, d: (to - from).normalize(), tmin: 0.0, tmax: f32::INFINITY };
+    world.intersect(&ray).map(|hit| hit.ng)
+}
+
+const LIGHT: &str = "LightSource \"point\"\n";
+
+#[test]
+fn x_is_at_the_right_of_the_picture_and_the_shorter_side_has_the_angle() {
+    let head = "Camera \"perspective\" \"float fov\" 90\nFilm \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100\n";
+    for (mirror, sign) in [("", 1.0), ("Scale -1 1 1\n", -1.0)] {
+        let text = format!("{mirror}LookAt 0 0 0  0 0 1  0 1 0\n{head}WorldBegin\n{LIGHT}");
+        let file = loaded(&text);
+        let camera = file.camera.build(file.camera.aspect.unwrap()).unwrap();
+        let right = camera.ray(Vec2::new(1.0, 0.5), Vec2::ZERO).ray.d;
+        assert!((right - Vec3::new(sign * 2.0, 0.0, 1.0).normalize()).length() < 1e-5, "{right}");
+        let top = camera.ray(Vec2::new(0.5, 0.0), Vec2::ZERO).ray.d;
+        assert!((top - Vec3::new(0.0, 1.0, 1.0).normalize()).length() < 1e-5, "{top}");
+        assert_eq!((file.defaults.width, file.defaults.height), (200, 100));
+    }
+}
+
+#[test]
+fn a_crop_is_a_part_of_the_whole_picture() {
+    let text = |crop: &str| {
+        let film = "Film \"rgb\" \"integer xresolution\" 200 \"integer yresolution\" 100";
+        format!("Camera \"perspective\"\n{film} {crop}\nWorldBegin\n{LIGHT}")
+    };
+    let ray = |file: &Loaded, raster: Vec2| {
+        file.camera.build(file.camera.aspect.unwrap()).unwrap().ray(raster, Vec2::ZERO).ray.d
+    };
+    let (whole, part) = (loaded(&text("")), loaded(&text("\"float cropwindow\" [0.5 0.75 0 0.5]")));
+    assert_eq!((part.defaults.width, part.defaults.height), (50, 50));
+    for corner in [Vec2::ZERO, Vec2::ONE, Vec2::new(0.3, 0.8)] {
+        let same = Vec2::new(0.5, 0.0) + corner * Vec2::new(0.25, 0.5);
+        assert!((ray(&part, corner) - ray(&whole, same)).length() < 1e-5);
+    }
+}
+
+#[test]
+fn the_outer_side_is_pbrts() {
+    let square = "\"point3 P\" [-1 -1 0  1 -1 0  1 1 0  -1 1 0] \"integer indices\" [0 1 2 0 2 3]";
+    let normals = "\"normal N\" [0 0 -1 0 0 -1 0 0 -1 0 0 -1]";
+    let cases = [
+        (format!("Shape \"trianglemesh\" {square}"), 1.0),
+        (format!("ReverseOrientation Shape \"trianglemesh\" {square}"), -1.0),
+        (format!("Scale -1 1 1 Shape \"trianglemesh\" {square}"), 1.0),
+        (format!("Shape \"trianglemesh\" {square} {normals}"), -1.0),
+        (format!("ReverseOrientation Shape \"trianglemesh\" {square} {normals}"), 1.0),
+        ("Shape \"disk\"".to_owned(), 1.0),
+        ("ReverseOrientation Shape \"disk\"".to_owned(), -1.0),
+        ("Shape \"sphere\"".to_owned(), 1.0),
+        ("Scale 1 1 2 Shape \"sphere\"".to_owned(), 1.0),
+        ("ReverseOrientation Shape \"sphere\"".to_owned(), -1.0),
+        ("Rotate 90 1 0 0 Shape \"cylinder\"".to_owned(), 1.0),
+    ];
+    for (text, sign) in cases {
+        let scene = scene(&format!("WorldBegin\n{LIGHT}{text}\n"));
+        let n = outer_normal(&scene, Vec3::new(0.3, 0.2, 9.0), Vec3::new(0.3, 0.2, 0.0)).unwrap();
+        assert!(n.z * sign > 0.5, "{text}: {n}");
+    }
+}
+
+#[test]
+fn transformations_nest_and_come_back() {
+    let text = "WorldBegin\nLightSource \"point\"\nTranslate 5 0 0\nAttributeBegin\nScale 2 2 2\nTranslate 1 0 0\n\
+        CoordinateSystem \"there\"\nAttributeEnd\nTransformBegin Identity TransformEnd\n\
+        AttributeBegin CoordSysTransform \"there\" Shape \"sphere\" AttributeEnd\nShape \"sphere\" \"float radius\" 0.5";
+    let (centre, radius) = scene(text).bounding_sphere();
+    // Spheres of radius 2 at 7, and of 0.5 at 5.
+    assert!((centre.x - 6.75).abs() < 1e-3 && radius > 2.0, "{centre} {radius}");
+}
+
+#[test]
+fn objects_are_placed_by_both_transformations() {
+    let text = "WorldBegin\nLightSource \"point\"\nObjectBegin \"o\" Translate 1 0 0 Shape \"sphere\" ObjectEnd\n\
+        Translate 0 5 0 ObjectInstance \"o\" Translate 0 5 0 ObjectInstance \"o\"";
+    let scene = scene(text);
+    assert_eq!(scene.counts().instances, 2);
+    for y in [5.0, 10.0] {
+        assert!(outer_normal(&scene, Vec3::new(1.0, y, 9.0), Vec3::new(1.0, y, 0.0)).is_some());
+    }
+    assert!(outer_normal(&scene, Vec3::new(1.0, 0.0, 9.0), Vec3::new(1.0, 0.0, 0.0)).is_none());
+}
+
+#[test]
+fn light_has_pbrts_units() {
+    let light = |text: &str| match &scene(text).lights()[0] {
+        Light::Point(light) => light.intensity.rgb(),
+        Light::Area(light) => light.radiance.rgb(),
+        other => panic!("{other:?}"),
+    };
+    let is_near = |a: Vec3, b: Vec3| assert!((a - b).abs().max_element() < 1e-4, "{a} {b}");
+    // The exposure of the film multiplies all light.
+    let film = "Film \"rgb\" \"float iso\" 150\nCamera \"perspective\" \"float shutterclose\" 0.5\nWorldBegin\n";
+    is_near(light(&format!("{film}LightSource \"point\" \"rgb I\" [4 8 12]")), Vec3::new(3.0, 6.0, 9.0));
+    // 4π lumens from a source of 1 candela.
+    is_near(light("WorldBegin\nLightSource \"point\" \"float power\" 12.566371"), Vec3::ONE);
+    // A lamp of 2 m² and radiance 1 gives 2π lumens.
+    let text = "WorldBegin\nAreaLightSource \"diffuse\" \"float power\" 6.2831855\nShape \"trianglemesh\" \
+        \"point3 P\" [0 0 0 1 0 0 1 2 0 0 2 0] \"integer indices\" [0 1 2 0 2 3]";
+    is_near(light(text), Vec3::ONE);
+    // What is no RGB has luminance 1 in version 4; version 3 divides by the largest value.
+    let luminance = |rgb: Vec3| rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722));
+    let body = light("WorldBegin\nLightSource \"point\" \"blackbody I\" 3000 \"float scale\" 2");
+    assert!((luminance(body) - 2.0).abs() < 0.01, "{body}");
+    let body = light("Film \"image\"\nWorldBegin\nLightSource \"point\" \"blackbody I\" [5500 10]");
+    assert!((9.0..10.0).contains(&luminance(body)), "{body}");
+}
+
+#[test]
+fn the_quirks_of_the_wild_are_read() {
+    let main = "Integrator \"path\" \"integer maxdepth\" 7\nInclude \"open.pbrt\"\n\
+        \"float fov\" [ 40 ] \"float fov\" [ 50 ]\nCamera \"perspective\" \" float fov\" 60\nWorldBegin\n\
+        LightSource \"infinite\" \"color L\" [1 1 1]\nMaterial \"\"\nShape \"sphere\"\n\
+        Material \"dielectric\" \"bool remaproughness\" \"false\" \"float eta\" 1.25\nShape \"sphere\"\n\
+        Material \"glass\" \"bool remaproughness\" [ false ] \"float index\" [1.25]\nShape \"sphere\" \"float alpha\" 0\n";
+    let (told, file) = load_files(&[("main.pbrt", main), ("open.pbrt", "Camera \"perspective\"")]);
+    let file = file.unwrap_or_else(|e| panic!("{e}"));
+    assert_eq!(told, "");
+    assert_eq!((file.surfaces, file.lights), (1, 1));
+    assert_eq!(file.hints.scatterings, Some(7));
+    let short = 720.0 / 1280.0;
+    assert!(short < 1.0 && (file.camera.fov - 60.0).abs() < 1e-3, "{}", file.camera.fov);
+}
+
+#[test]
+fn mistakes_are_told_with_their_places() {
+    let cases = [
+        "WorldBegin\nShap \"sphere\"\n",
+        "WorldBegin\nShape \"spher\"\n",
+        "WorldBegin\nShape \"sphere\" \"float raduis\" 2\n",
+        "WorldBegin\nShape \"sphere\" \"flaot radius\" 2\n",
+        "WorldBegin\nShape \"sphere\" \"float radius\" [ 2\n",
+        "WorldBegin\nShape \"sphere\" \"float radius\" \"two\"\n",
+        "WorldBegin\nShape \"sphere\" \"float radius\" 1e99\n",
+        "WorldBegin\nMaterial \"dielectic\"\nNamedMaterial \"a\"\n",
+        "WorldBegin\nMaterial \"diffuse\" \"texture reflectance\" \"t\"\n",
+        "WorldBegin\nShape \"sphere\nAttributeEnd\n",
+        "WorldBegin\nAttributeBegin\nTransformEnd\n",
+        "Translate 1 2\nWorldBegin\nObjectInstance \"tree\"\n",
+        "WorldBegin\nShape \"plymesh\" \"string filename\" \"gone.ply\"\nLightSource \"point\"\n",
+        "Include \"gone.pbrt\"\n",
+        "Transform [1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 1]\n",
+        "WorldBegin\nMaterial \"conductor\" \"spectrum eta\" \"metal-Ag\"\n",
+        "17\n",
+    ];
+    assert_snapshot!(cases.map(|c| format!("{c}---\n{}", told(c))).join("\n\n"));
+}
+
+#[test]
+fn included_mistakes_name_the_included_file_and_outside_is_closed() {
+    let (text, _) = load_files(&[("main.pbrt", "WorldBegin\nInclude \"b.pbrt\"\n"), ("b.pbrt", "\n Shape \"sper\"\n")]);
+    assert!(text.contains("FOLDER/b.pbrt:2:2"), "{text}");
+    let folder = tempfile::tempdir().unwrap();
+    let inner = folder.path().join("inner");
+    std::fs::create_dir(&inner).unwrap();
+    std::fs::write(folder.path().join("secret"), "WorldBegin\n").unwrap();
+    let main = inner.join("main.pbrt");
+    std::fs::write(&main, "Include \"../secret\"\n").unwrap();
+    let error = load(std::slice::from_ref(&main), &LoadOptions::default()).unwrap_err();
+    assert_eq!(error.errors[0].code, "pbrt::outside");
+    assert!(load(&[main], &LoadOptions { allow_outside: true, ..LoadOptions::default() }).is_ok());
+}
+
+#[test]
+fn a_file_that_includes_itself_is_an_error() {
+    assert!(told("Include \"a.pbrt\"\n").contains("include one another"));
+}

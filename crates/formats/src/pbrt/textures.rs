@@ -1,0 +1,194 @@
+//! `Texture`: named colours and numbers over surfaces.
+
+use super::directives::{Importer, unknown, warning};
+use super::files::first_of;
+use super::params::{Found, Param, Params};
+use super::spectra::Role;
+use super::tokens::At;
+use crate::diagnostic::Diagnostic;
+use crate::image::{RgbImage32, read_image_bytes, srgb_from_linear};
+use glam::Vec3;
+use std::collections::HashMap;
+use sunfleck::bsdf::TextureId;
+use sunfleck::texture::{ImageTexture, Texture, Wrap};
+
+const CLASSES: [&str; 14] = [
+    "bilerp",
+    "checkerboard",
+    "constant",
+    "directionmix",
+    "dots",
+    "fbm",
+    "imagemap",
+    "marble",
+    "mix",
+    "ptex",
+    "scale",
+    "uv",
+    "windy",
+    "wrinkled",
+];
+
+/// What stands for a picture that is missing: nothing in a real scene looks like it.
+const MISSING: Vec3 = Vec3::new(1.0, 0.0, 1.0);
+
+/// A texture, and its mean for places that take one value only.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Made {
+    pub(super) id: TextureId,
+    pub(super) mean: Vec3,
+}
+
+/// By name; numbers and colours have names of their own.
+#[derive(Default)]
+pub(super) struct Textures {
+    pub(super) numbers: HashMap<String, Made>,
+    pub(super) colours: HashMap<String, Made>,
+}
+
+impl Importer<'_> {
+    /// A `Texture` directive; its name is read already.
+    pub(super) fn texture(&mut self, name: &str, at: &At) -> Found<()> {
+        let kind = self.string(at)?;
+        let class = self.string(at)?;
+        let params = Params::read(&mut self.tokens, at.clone())?;
+        let params = self.with_defaults("texture", params);
+        let is_number = match kind.as_str() {
+            "float" => true,
+            "spectrum" | "color" | "rgb" => false,
+            _ => return Err(unknown(at, "kind of texture", &kind, ["float", "spectrum", "color"])),
+        };
+        let made = self.make_texture(&class, &params)?;
+        self.tell_unused(&params);
+        let names = if is_number { &mut self.textures.numbers } else { &mut self.textures.colours };
+        names.insert(name.to_owned(), made);
+        Ok(())
+    }
+
+    fn make_texture(&mut self, class: &str, params: &Params) -> Found<Made> {
+        match class {
+            "constant" => self.operand(params, "value", Vec3::ONE),
+            "imagemap" => self.image_map(params),
+            "scale" => {
+                let (a, b) = if params.get("tex1").is_some() { ("tex1", "tex2") } else { ("tex", "scale") };
+                let (a, b) = (self.operand(params, a, Vec3::ONE)?, self.operand(params, b, Vec3::ONE)?);
+                Ok(self.constant(a.mean * b.mean))
+            }
+            _ if CLASSES.contains(&class) => {
+                let message = format!("textures of the kind `{class}` are shown in grey");
+                self.warn_once("pbrt::texture", class, || params.at.tell(warning("pbrt::texture", message), ""));
+                Ok(self.constant(Vec3::splat(0.5)))
+            }
+            _ => Err(unknown(&params.at, "kind of texture", class, CLASSES)),
+        }
+    }
+
+    pub(super) fn constant(&mut self, colour: Vec3) -> Made {
+        Made { id: self.target.builder().constant(colour), mean: colour }
+    }
+
+    /// A parameter that is a colour, a number, or a texture.
+    fn operand(&mut self, params: &Params, name: &'static str, default: Vec3) -> Found<Made> {
+        let Some(param) = params.get(name).cloned() else { return Ok(self.constant(default)) };
+        if param.kind == "texture" {
+            return self.named_texture(&param);
+        }
+        let colour = self.colour(&param, Role::Reflectance)?;
+        let mean = colour.rgb();
+        Ok(Made { id: self.target.builder().constant(colour), mean })
+    }
+
+    fn named_texture(&self, param: &Param) -> Found<Made> {
+        let Some([name]) = param.strings() else { return Err(param.expected("the name of a texture")) };
+        let Textures { numbers, colours } = &self.textures;
+        let found = colours.get(name).or_else(|| numbers.get(name));
+        found.copied().ok_or_else(|| {
+            let names = colours.keys().chain(numbers.keys()).map(String::as_str);
+            unknown(&param.at, "texture", name, names)
+        })
+    }
+
+    /// The texture that a parameter names.
+    pub(super) fn texture_of(&mut self, param: &Param) -> Found<TextureId> {
+        Ok(self.named_texture(param)?.id)
+    }
+
+    /// One colour for a parameter: of a texture its mean.
+    pub(super) fn mean_spectrum(&mut self, param: &Param) -> Found<Vec3> {
+        if param.kind != "texture" {
+            return Ok(self.colour(param, Role::Reflectance)?.rgb());
+        }
+        self.tell_mean(param);
+        Ok(self.named_texture(param)?.mean)
+    }
+
+    /// A number: of a texture its mean.
+    pub(super) fn float(&mut self, params: &Params, name: &'static str, default: f64) -> Found<f64> {
+        let Some(param) = params.get(name).cloned() else { return Ok(default) };
+        if param.kind != "texture" {
+            return params.number(name, default);
+        }
+        self.tell_mean(&param);
+        Ok(f64::from(self.named_texture(&param)?.mean.element_sum() / 3.0))
+    }
+
+    fn tell_mean(&mut self, param: &Param) {
+        let message = format!("the texture of `{}` is taken as its mean everywhere", param.name);
+        self.warn_once("pbrt::mean", &param.name, || param.at.tell(warning("pbrt::mean", message), ""));
+    }
+
+    fn image_map(&mut self, params: &Params) -> Found<Made> {
+        params.ignore(&["filter", "maxanisotropy", "trilinear", "gamma"]);
+        let scale = params.number("scale", 1.0)? as f32;
+        let invert = params.bool("invert", false)?;
+        let wrap = params.word("wrap", "repeat", &["repeat", "black", "clamp", "octahedralsphere"])?;
+        let wrap = if wrap == "repeat" { Wrap::Repeat } else { Wrap::Clamp };
+        let encoding = params.string("encoding")?.unwrap_or("sRGB").to_owned();
+        let Some((image, _)) = self.picture_file(params, "filename")? else { return Ok(self.constant(MISSING)) };
+        let decode =
+            decoder(&encoding).ok_or_else(|| params.misfit("encoding", "`sRGB`, `linear` or `gamma` and a number"))?;
+        let value = |p: &[f32; 3]| {
+            let v = Vec3::from_array(*p).map(&decode);
+            scale * if invert { (Vec3::ONE - v).max(Vec3::ZERO) } else { v }
+        };
+        let pixels: Vec<Vec3> = image.data.iter().map(value).collect();
+        let texture = ImageTexture::new(image.width as usize, image.height as usize, pixels, wrap);
+        let Some(texture) = texture else { return Ok(self.constant(MISSING)) };
+        let mean = texture.mean();
+        Ok(Made { id: self.target.builder().texture(Texture::Image(texture)), mean })
+    }
+
+    /// Reads a picture that a parameter names. `None` with a warning if that fails.
+    pub(super) fn picture_file(&mut self, params: &Params, name: &'static str) -> Found<Option<(RgbImage32, At)>> {
+        let Some(file) = params.string(name)?.map(str::to_owned) else {
+            return Err(params.bad("pbrt::no-file", "a picture needs a `filename`"));
+        };
+        let at = params.get(name).map_or(&params.at, |p| &p.at).clone();
+        let path = self.files.find(&file, &at);
+        let read = crate::diagnostic::read_bytes(&path).and_then(|bytes| {
+            let picture = read_image_bytes(&path.display().to_string(), &bytes)?;
+            self.target.input(&bytes);
+            Ok(picture.image)
+        });
+        match read {
+            Ok(image) => Ok(Some((image, at))),
+            Err(error) => {
+                let told =
+                    Diagnostic { severity: crate::Severity::Warning, code: "pbrt::missing-picture", ..first_of(error) };
+                self.target.sink.warn("pbrt::missing-picture", || at.tell(told, "shown in magenta"));
+                Ok(None)
+            }
+        }
+    }
+}
+
+/// From the linear values that an 8-bit picture is read to, to those that its encoding means.
+fn decoder(encoding: &str) -> Option<impl Fn(f32) -> f32 + use<>> {
+    let exponent = match encoding.split_whitespace().collect::<Vec<_>>()[..] {
+        ["sRGB"] => None,
+        ["linear"] => Some(1.0),
+        ["gamma", exponent] => Some(exponent.parse::<f32>().ok().filter(|e| *e > 0.0)?),
+        _ => return None,
+    };
+    Some(move |v: f32| exponent.map_or(v, |e| srgb_from_linear(v).max(0.0).powf(e)))
+}
