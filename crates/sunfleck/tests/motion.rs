@@ -80,7 +80,7 @@ fn a_shining_square_that_moves_evenly_leaves_a_trapezoid() {
     b.place_moving(lamp, shift(from, 0.0), shift(to, 0.0));
     b.camera(eye(0.0));
     let scene = b.build().unwrap();
-    for algorithm in ["path", "light", "ppm"] {
+    for algorithm in ["path", "light", "ppm", "bdpt", "unified"] {
         is_the_trapezoid(&scene, algorithm, side, from, to);
     }
 }
@@ -200,7 +200,7 @@ fn the_bounding_sphere_holds_the_whole_way() {
 #[test]
 fn a_moving_scene_has_the_same_picture_for_any_number_of_threads() {
     let scene = lively(&SceneBuilder::place_moving);
-    for algorithm in ["path", "light", "ppm", "photonmap"] {
+    for algorithm in ["path", "light", "ppm", "photonmap", "bdpt", "vcm", "unified"] {
         let picture = |threads| {
             let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
             pool.install(|| render(&scene, algorithm, 3, 0..3))

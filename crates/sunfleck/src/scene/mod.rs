@@ -90,6 +90,10 @@ impl Scene {
     pub fn world(&self, lambda: Wavelengths, time: f32) -> World<'_> {
         World::new(self, lambda, time)
     }
+    /// Whether passes at different times see different scenes.
+    pub fn moves(&self) -> bool {
+        self.camera_to.is_some() || matches!(self.geometry, Geometry::Moving(_))
+    }
     /// The lights that stand still, by [`LightId`]; [`World::lights`] has all.
     pub fn lights(&self) -> &[Light] {
         &self.lights

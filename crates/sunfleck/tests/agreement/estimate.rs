@@ -60,8 +60,10 @@ pub(crate) fn estimate(scene: &Scene, name: &'static str, passes: u64) -> Estima
     let mut image = PassImage::new(spec);
     let mut blocks = vec![Sums::default(); BLOCKS_A_ROW * BLOCKS_A_ROW * 3];
     let mut picture = Sums::default();
-    // Wavelengths are even over successive passes; taken one by one, passes would seem as different as their colours.
-    let (color, size) = if scene.is_dispersive() { (ColorMode::Spectral, 16) } else { (ColorMode::Rgb, 1) };
+    let color = if scene.is_dispersive() { ColorMode::Spectral } else { ColorMode::Rgb };
+    // Wavelengths and times are even over successive passes; taken one by one, passes would seem as different as their
+    // colours or moments.
+    let size = if scene.is_dispersive() || scene.moves() { 16 } else { 1 };
     let mut group = vec![0.0; blocks.len()];
     for index in 0..passes {
         image.clear();

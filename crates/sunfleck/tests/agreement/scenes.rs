@@ -1,5 +1,7 @@
 //! Tiny scenes, each with one thing that algorithms get wrong.
-use glam::{Affine3A, Mat3, Quat, Vec2, Vec3};
+mod moving;
+
+use glam::{Affine3A, Quat, Vec2, Vec3};
 use sunfleck::{
     bsdf::{
         ConductorMaterial, CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, MirrorMaterial, PhongMaterial,
@@ -47,10 +49,10 @@ pub(crate) const SCENES: &[TinyScene] = &[
     TinyScene { name: "textures", algorithms: ALL, build: textures },
     TinyScene { name: "unlike_lights", algorithms: ALL, build: unlike_lights },
     TinyScene { name: "an_eye_in_glass", algorithms: NOT_LIGHT, build: an_eye_in_glass },
-    TinyScene { name: "moving_instance", algorithms: ALL, build: moving_instance },
-    TinyScene { name: "moving_light", algorithms: ALL, build: moving_light },
-    TinyScene { name: "moving_camera", algorithms: ALL, build: moving_camera },
-    TinyScene { name: "moving_thin_lens", algorithms: ALL, build: moving_thin_lens },
+    TinyScene { name: "moving_instance", algorithms: ALL, build: moving::moving_instance },
+    TinyScene { name: "moving_light", algorithms: ALL, build: moving::moving_light },
+    TinyScene { name: "moving_camera", algorithms: ALL, build: moving::moving_camera },
+    TinyScene { name: "moving_thin_lens", algorithms: ALL, build: moving::moving_thin_lens },
     TinyScene { name: "dispersive_ball", algorithms: NOT_LIGHT, build: dispersive_ball },
     TinyScene { name: "dispersive_caustic", algorithms: ALL, build: dispersive_caustic },
     TinyScene { name: "dispersive_rough_glass", algorithms: ALL, build: dispersive_rough_glass },
@@ -349,59 +351,4 @@ fn unlike_lights() -> Scene {
     emit(&mut b, ball([0.5, -0.7, 0.2], 0.2), Vec3::new(0.5, 2.0, 0.5), Sides::One);
     b.light(PointLight { p: Vec3::new(-0.6, -0.2, 0.3), intensity: Vec3::new(0.1, 0.1, 0.4).into() });
     finish(b)
-}
-
-/// A ball that flies across the room and a tile that turns, grows and is sheared on its way.
-fn moving_instance() -> Scene {
-    let mut b = room();
-    let grey = diffuse(&mut b, Vec3::splat(0.6));
-    let tile = Shape::Parallelogram(Parallelogram::new(Vec3::new(-0.5, 0.0, -0.5), Vec3::Z, Vec3::X));
-    let tile = b.object(vec![SurfaceDef { shape: tile, material: grey, emission: None }]);
-    let flying = b.object(vec![SurfaceDef { shape: ball([0.0; 3], 0.3), material: grey, emission: None }]);
-    let at = |x: f32, y: f32| Affine3A::from_translation(Vec3::new(x, y, 0.2));
-    b.place_moving(flying, at(-0.6, -0.6), at(0.5, 0.3));
-    let sheared = Affine3A::from_mat3_translation(
-        Mat3::from_rotation_z(0.9) * Mat3::from_cols(1.4 * Vec3::X, Vec3::Y, Vec3::new(0.5, 0.0, 1.0)),
-        Vec3::new(0.4, -0.5, 0.0),
-    );
-    b.place_moving(tile, Affine3A::from_translation(Vec3::new(-0.4, 0.2, -0.5)), sheared);
-    emit(&mut b, lamp(0.8, 0.95), Vec3::splat(8.0), Sides::One);
-    finish(b)
-}
-
-/// A lamp that swings above a grey ball, and a lamp that stands still.
-fn moving_light() -> Scene {
-    let mut b = room();
-    let [black, grey] = [Vec3::ZERO, Vec3::splat(0.5)].map(|c| diffuse(&mut b, c));
-    b.add(ball([0.1, -0.6, 0.0], 0.4), grey);
-    let shine = |shape, radiance| SurfaceDef { shape, material: black, emission: Some((radiance, Sides::One)) };
-    let shade = SurfaceDef { shape: ball([0.0, 0.2, 0.0], 0.15), material: grey, emission: None };
-    let swing = b.object(vec![shine(lamp(0.5, 0.0), Vec3::new(9.0, 8.0, 7.0).into()), shade]);
-    let at = |x: f32, turn: f32| {
-        Affine3A::from_rotation_translation(Quat::from_rotation_z(turn), Vec3::new(x, 0.6 - 0.3 * turn.abs(), 0.1))
-    };
-    b.place_moving(swing, at(-0.5, -0.6), at(0.6, 0.8));
-    emit(&mut b, lamp(0.4, 0.95), Vec3::new(1.0, 3.0, 6.0), Sides::One);
-    finish(b)
-}
-
-fn with_moving_eye(from: Perspective, change: impl Fn(Perspective) -> Perspective) -> Scene {
-    let mut b = room();
-    let grey = diffuse(&mut b, Vec3::splat(0.4));
-    b.add(ball([0.2, -0.4, 0.5], 0.35), grey);
-    let view =
-        View { position: Vec3::new(0.5, 0.3, 3.0), look_at: Vec3::new(-0.2, 0.1, 0.0), up: Vec3::new(0.2, 1.0, 0.0) };
-    let to = Perspective::new(&view, 48.0, 1.0).unwrap();
-    b.camera_moving(from, change(to));
-    emit(&mut b, lamp(0.8, 0.95), Vec3::splat(8.0), Sides::One);
-    finish(b)
-}
-
-fn moving_camera() -> Scene {
-    with_moving_eye(eye(), |to| to)
-}
-
-/// The eye moves while its aperture opens and its focus is pulled.
-fn moving_thin_lens() -> Scene {
-    with_moving_eye(eye().with_lens(0.2, 2.8).unwrap(), |to| to.with_lens(0.5, 3.6).unwrap())
 }
