@@ -53,21 +53,31 @@ impl<S: Simd> Slabs<S> {
         slabs
     }
 
-    /// Entry distances of the boxes, at least `tmin`, and a bit for each box that the ray meets in [tmin, tmax].
+    /// Entry distances of the boxes, at least `tmin`, which is not negative, and a bit for each box that the ray meets in
+    /// [tmin, tmax].
     #[inline(always)]
     pub(super) fn enter(&self, s: S, node: &Node, tmin: S::F8, tmax: S::F8) -> (S::F8, u32) {
-        let (mut near, mut far) = (tmin, tmax);
-        for axis in 0..3 {
-            let near_planes = self.near_planes[axis];
-            // SAFETY: both places are rows of the node's planes, by construction.
-            let (first, second) = unsafe {
-                let rows = node.planes.as_ptr();
-                (&*rows.byte_add(near_planes), &*rows.byte_add(near_planes ^ ROW))
-            };
-            // A NaN is dropped, as `min` and `max` return their second operand then.
-            near = s.max8(s.fmadd8(s.load8(first), self.near_scale[axis], self.near_offset[axis]), near);
-            far = s.min8(s.fmadd8(s.load8(second), self.far_scale[axis], self.far_offset[axis]), far);
-        }
+        let (x0, x1) = self.slab(s, node, 0);
+        let (y0, y1) = self.slab(s, node, 1);
+        let (z0, z1) = self.slab(s, node, 2);
+        // In pairs, as a ray waits for the last of them.
+        let near = s.max8(s.max8(x0, y0), s.max8(z0, tmin));
+        let far = s.min8(s.min8(x1, y1), s.min8(z1, tmax));
         (near, s.le8(near, far))
+    }
+
+    /// Distances of the planes of one axis that the ray meets first, and of those that it meets last.
+    #[inline(always)]
+    fn slab(&self, s: S, node: &Node, axis: usize) -> (S::F8, S::F8) {
+        let near_planes = self.near_planes[axis];
+        // SAFETY: both places are rows of the node's planes, by construction.
+        let (first, last) = unsafe {
+            let rows = node.planes.as_ptr();
+            (&*rows.byte_add(near_planes), &*rows.byte_add(near_planes ^ ROW))
+        };
+        (
+            s.fmadd8(s.load8(first), self.near_scale[axis], self.near_offset[axis]),
+            s.fmadd8(s.load8(last), self.far_scale[axis], self.far_offset[axis]),
+        )
     }
 }

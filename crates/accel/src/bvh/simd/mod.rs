@@ -71,8 +71,12 @@ pub(super) trait Simd: Copy {
     fn store8(self, x: Self::F8) -> [f32; 8];
     /// a b + c, fused where the processor can.
     fn fmadd8(self, a: Self::F8, b: Self::F8, c: Self::F8) -> Self::F8;
+    /// Where any of the values is negative, some negative value; so these two and the comparison can be done on integers,
+    /// which is quicker.
     fn min8(self, a: Self::F8, b: Self::F8) -> Self::F8;
+    /// Where none of the values is positive or zero, some negative value.
     fn max8(self, a: Self::F8, b: Self::F8) -> Self::F8;
+    /// For an `a` that is positive or +0, a `b` that is not -0, and no NaN.
     fn le8(self, a: Self::F8, b: Self::F8) -> u32;
 
     /// Asks the caches for the line at `p`, which need not be a valid address.

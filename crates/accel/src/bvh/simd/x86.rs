@@ -67,9 +67,17 @@ macro_rules! shared_ops {
             load8(x: &[f32; 8]) -> __m256 { _mm256_loadu_ps(x.as_ptr()) }
             store8(x: __m256) -> [f32; 8] { std::mem::transmute::<__m256, [f32; 8]>(x) }
             fmadd8(a: __m256, b: __m256, c: __m256) -> __m256 { _mm256_fmadd_ps(a, b, c) }
-            min8(a: __m256, b: __m256) -> __m256 { _mm256_min_ps(a, b) }
-            max8(a: __m256, b: __m256) -> __m256 { _mm256_max_ps(a, b) }
-            le8(a: __m256, b: __m256) -> u32 { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LE_OQ>(a, b)) as u32 }
+            min8(a: __m256, b: __m256) -> __m256 {
+                _mm256_castsi256_ps(_mm256_min_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)))
+            }
+            max8(a: __m256, b: __m256) -> __m256 {
+                _mm256_castsi256_ps(_mm256_max_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b)))
+            }
+            le8(a: __m256, b: __m256) -> u32 {
+                !_mm256_movemask_ps(_mm256_castsi256_ps(
+                    _mm256_cmpgt_epi32(_mm256_castps_si256(a), _mm256_castps_si256(b))
+                )) as u32 & 0xff
+            }
             prefetch(p: *const u8) -> () { _mm_prefetch::<_MM_HINT_T0>(p.cast()) }
         }
     };
