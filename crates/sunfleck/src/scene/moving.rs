@@ -78,7 +78,7 @@ impl Moving {
         let mut moved = Vec::with_capacity(self.emitters.len());
         let surface = |(s, motion): &(SurfaceDef, Motion)| {
             let shape = s.shape.transformed(&motion.at(time)).expect("even at both ends, hence on the way");
-            freeze(SurfaceDef { shape, ..s.clone() }, lights.len(), &mut moved)
+            freeze(SurfaceDef { shape, material: s.material, emission: s.emission.clone() }, lights.len(), &mut moved)
         };
         let surfaces: Vec<_> = self.emitters.iter().map(surface).collect();
         let placements: Vec<_> = self.places.iter().map(|(o, place)| Placement::new(*o, place.at(time))).collect();
