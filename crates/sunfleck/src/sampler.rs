@@ -84,16 +84,19 @@ impl Sampler {
     }
 }
 
-/// Two numbers in [0, 1) for a choice that all paths of a pass share. Over passes they walk a (0,2)-sequence, moved as a
-/// whole by the seed: the first number of passes `0..2ᵏ` is a lattice, and the quarters that the second falls into go round
-/// so that both together are even, too.
-pub(crate) fn pass_pair(seed: u64, pass: u64) -> glam::Vec2 {
-    let shift = mix64(seed ^ mix64(0x7c3a_19f5_0b6d_e284));
+/// A number in [0, 1) for a choice that all paths of a pass share, such that a *quarter turn* of it (its sum with 1/4, 1/2
+/// and 3/4, modulo 1) is spread evenly, too.
+///
+/// Passes `0..2ᵏ` walk an even lattice from k = 4 on, moved as a whole by the seed. Any four passes that begin at a multiple
+/// of four fall into four different quarters, and at four different places of them, so that with all turns they are a
+/// lattice of 16.
+pub(crate) fn pass_turn(seed: u64, pass: u64) -> f32 {
+    let shift = mix64(seed ^ mix64(0x7c3a_19f5_0b6d_e284)) as u32;
     let index = pass as u32;
-    let x = index.reverse_bits().wrapping_add(shift as u32);
-    // Whole quarters, which map the sequence's quarters onto each other.
-    let y = sobol_second(index).wrapping_add((shift >> 32) as u32 & 0xc000_0000);
-    glam::Vec2::new(unit(x), unit(y))
+    let pair = |bits: u32| (bits & 1) << 1 | bits >> 1 & 1;
+    let place = pair(index) << 30 | (index >> 4).reverse_bits() >> 2;
+    let quarter = pair(index) ^ pair(index >> 2);
+    unit((quarter << 30 | place >> 2).wrapping_add(shift))
 }
 
 /// 24 random bits as a float in [0, 1).

@@ -1,6 +1,6 @@
 //! Which wavelengths a pass carries, and how they are drawn.
 use super::observer::observer;
-use crate::sampler::pass_pair;
+use crate::sampler::pass_turn;
 use glam::Vec4;
 
 /// What the lanes of a [`super::Spectrum`] stand for. Drawn once per pass, so that photons and camera paths can meet.
@@ -36,14 +36,13 @@ const CENTRE: f32 = 538.0;
 impl ColorMode {
     /// The wavelengths of pass `pass`: a pure function of (seed, pass).
     ///
-    /// The four lanes are a quarter of the distribution apart. From pass to pass their common offset walks a lattice
-    /// (so 2ᵏ passes are 4·2ᵏ even steps over the spectrum) and the hero walks the quarters so that alone, too, it is even.
+    /// The four lanes are a quarter of the distribution apart. Over passes, all lanes together are even steps over the
+    /// spectrum from the fourth pass on, and the hero alone from the sixteenth on (at powers of two).
     pub fn wavelengths(self, seed: u64, pass: u64) -> Wavelengths {
         match self {
             Self::Rgb => Wavelengths::Rgb,
             Self::Spectral => {
-                let u = pass_pair(seed, pass);
-                let hero = 0.25 * ((4.0 * u.y).floor() + u.x);
+                let hero = pass_turn(seed, pass);
                 let lanes = (Vec4::splat(hero) + Vec4::new(0.0, 0.25, 0.5, 0.75)).to_array();
                 Wavelengths::Spectral(Vec4::from_array(lanes.map(|u| sample_nm(u.fract()))))
             }
@@ -103,21 +102,36 @@ mod tests {
 
     #[test]
     fn few_passes_cover_the_spectrum_with_all_lanes_and_with_the_hero_alone() {
+        let (low, span) = ends();
+        let place = |nm: f32| (((nm - CENTRE) * SHARPNESS).tanh() - low) / span;
+        // The largest gap between neighbours on the circle, times their number.
+        let gap = |mut u: Vec<f32>| {
+            u.sort_by(f32::total_cmp);
+            let gaps = u.iter().zip(u.iter().cycle().skip(1)).map(|(a, b)| (b - a).rem_euclid(1.0));
+            u.len() as f32 * gaps.fold(0.0, f32::max)
+        };
         for seed in 0..20 {
             for first in [0u64, 16, 1008] {
-                let (mut all, mut hero) = ([0; 64], [0; 16]);
-                for pass in first..first + 16 {
-                    let Wavelengths::Spectral(nm) = ColorMode::Spectral.wavelengths(seed, pass) else { unreachable!() };
-                    let (low, span) = ends();
-                    let place = |nm: f32| (((nm - CENTRE) * SHARPNESS).tanh() - low) / span;
-                    nm.to_array().iter().for_each(|&nm| all[(64.0 * place(nm)) as usize % 64] += 1);
-                    hero[(16.0 * place(nm.x)) as usize % 16] += 1;
-                }
-                assert!(all.iter().all(|&n| n <= 2), "seed {seed} from {first}: {all:?}");
-                assert!(hero.iter().all(|&n| n <= 3), "seed {seed} from {first}: {hero:?}");
-                assert!(hero.iter().filter(|&&n| n == 0).count() <= 6, "seed {seed} from {first}: {hero:?}");
+                let lanes = |passes: u64, lanes: usize| -> Vec<f32> {
+                    (first..first + passes)
+                        .flat_map(|pass| match ColorMode::Spectral.wavelengths(seed, pass) {
+                            Wavelengths::Spectral(nm) => nm.to_array().into_iter().take(lanes).map(place),
+                            Wavelengths::Rgb => unreachable!("spectral mode"),
+                        })
+                        .collect()
+                };
+                assert!(gap(lanes(4, 4)) < 1.01, "seed {seed} from {first}");
+                assert!(gap(lanes(16, 1)) < 1.01, "seed {seed} from {first}");
+                assert!(gap(lanes(4, 1)) < 2.1, "seed {seed} from {first}");
             }
         }
+        let heroes: Vec<f32> = (0..256)
+            .map(|pass| match ColorMode::Spectral.wavelengths(1, pass) {
+                Wavelengths::Spectral(nm) => place(nm.x),
+                Wavelengths::Rgb => unreachable!("spectral mode"),
+            })
+            .collect();
+        assert!(gap(heroes) < 1.05);
     }
 
     #[test]
