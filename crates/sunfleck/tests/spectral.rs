@@ -11,7 +11,7 @@ use sunfleck::{
     render::{Budget, Settings, render},
     scene::{Scene, SceneBuilder, SurfaceDef},
     shape::{Parallelogram, Shape, Sphere},
-    spectrum::{ColorMode, Colour, Illuminant, Ior, Rgb, Wavelengths, named},
+    spectrum::{ColorMode, Colour, Illuminant, Ior, Named, Rgb, Wavelengths, named},
     texture::{ImageTexture, Texture, Wrap},
 };
 
@@ -170,7 +170,7 @@ fn each_wavelength_bends_by_its_published_index() {
         ("diamond", 587.56, 2.4175),
         ("water", 587.56, 1.3334),
     ] {
-        let ior = named(glass).and_then(|g| g.ior()).expect("a glass");
+        let ior = named(glass).and_then(Named::ior).expect("a glass");
         let (sin, disperses) = refracted(ior, nm);
         assert!((0.75f64.sqrt() / f64::from(sin) - n).abs() < 1e-4, "{glass} at {nm}: {}", 0.75f32.sqrt() / sin);
         assert!(disperses);
@@ -198,7 +198,7 @@ fn glass_ball() -> Scene {
     let mut b = SceneBuilder::new();
     let [white, grey] = [1.0, 0.6].map(|v| b.constant(Rgb::splat(v)));
     let matt = b.material(DiffuseMaterial { reflectance: grey });
-    let eta = named("diamond").and_then(|g| g.ior()).expect("a gem");
+    let eta = named("diamond").and_then(Named::ior).expect("a gem");
     let glass = b.material(DielectricMaterial { eta, reflectance: white, transmittance: white });
     b.add(Shape::Sphere(Sphere { centre: Vec3::new(0.1, -0.3, 0.2), radius: 0.5 }), glass);
     let floor = Parallelogram::new(Vec3::new(-2.0, -0.9, -2.0), 4.0 * Vec3::Z, 4.0 * Vec3::X);
