@@ -23,7 +23,7 @@ const STRATIFIED: u32 = 24;
 /// One stream of uniform numbers in [0, 1).
 #[derive(Clone, Copy, Debug)]
 pub struct Sampler {
-    /// Position in the low-discrepancy sequence.
+    /// Position in the low-discrepancy sequence, its bits reversed.
     point: u32,
     /// Scrambling key of this stream.
     key: u32,
@@ -43,14 +43,14 @@ impl Sampler {
         let (stream, point) = if domain == Domain::Camera { (index, pass) } else { (pass, index) };
         let key = mix64(family.wrapping_add(mix64(stream ^ 0x9e37_79b9_7f4a_7c15)));
         let late = mix64(key ^ mix64(point.wrapping_add(0x632b_e59b_d9b4_e019)));
-        Self { point: point as u32, key: (key >> 32) as u32 ^ ((point >> 32) as u32), draw: 0, late }
+        Self { point: (point as u32).reverse_bits(), key: (key >> 32) as u32 ^ ((point >> 32) as u32), draw: 0, late }
     }
 
     /// One number in [0, 1).
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
         let Some((index, k)) = self.next_draw() else { return unit(self.next_late()) };
-        unit(owen(index.reverse_bits(), k ^ 0x68bc_21eb))
+        unit(scramble(index, k ^ 0x68bc_21eb).reverse_bits())
     }
 
     /// Two numbers in [0, 1), stratified together.
@@ -59,9 +59,18 @@ impl Sampler {
         let Some((index, k)) = self.next_draw() else {
             return glam::Vec2::new(unit(self.next_late()), unit(self.next_late()));
         };
-        let x = owen(index.reverse_bits(), k ^ 0x68bc_21eb);
-        let y = owen(sobol_second(index), k ^ 0x02e5_be93);
-        glam::Vec2::new(unit(x), unit(y))
+        let x = scramble(index, k ^ 0x68bc_21eb);
+        let y = scramble(sobol_second(index), k ^ 0x02e5_be93);
+        let turned = (u64::from(x) << 32 | u64::from(y)).reverse_bits();
+        glam::Vec2::new(unit(turned as u32), unit((turned >> 32) as u32))
+    }
+
+    /// In place of a draw of either kind that nobody will look at: 0, and the draws after it stay what they are as long as
+    /// they are stratified.
+    #[inline]
+    pub fn skip(&mut self) -> f32 {
+        self.draw += 1;
+        0.0
     }
 
     /// The shuffled index and the key of the next stratified draw; `None` past the last one.
@@ -72,7 +81,7 @@ impl Sampler {
         (draw < STRATIFIED).then(|| {
             let k = mix32(self.key.wrapping_add(draw.wrapping_mul(0x9e37_79b9)));
             // Owen scrambling of the index maps aligned power-of-two blocks onto such blocks, and each of those is a net.
-            (owen(self.point, k), mix32(k ^ 0x5bd1_e995))
+            (scramble(self.point, k).reverse_bits(), mix32(k ^ 0x5bd1_e995))
         })
     }
 
@@ -105,21 +114,20 @@ fn unit(x: u32) -> f32 {
     (x >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
-/// Nested uniform scramble of the bits of `x`, most significant first: the hash of Laine & Karras 2011 with the constants of
-/// Vegdahl 2021, "Building a Better LK Hash".
+/// Nested uniform scramble of the bits of `v`, least significant first: the hash of Laine & Karras 2011 with the constants of
+/// Vegdahl 2021, "Building a Better LK Hash". Points of a sequence have their first bit on top; they come here, and leave,
+/// with their bits reversed.
 #[inline]
-fn owen(x: u32, seed: u32) -> u32 {
-    let mut v = x.reverse_bits();
+fn scramble(mut v: u32, seed: u32) -> u32 {
     v ^= v.wrapping_mul(0x3d20_adea);
     v = v.wrapping_add(seed);
     v = v.wrapping_mul((seed >> 16) | 1);
     v ^= v.wrapping_mul(0x0552_6c56);
-    v ^= v.wrapping_mul(0x53a2_2864);
-    v.reverse_bits()
+    v ^ v.wrapping_mul(0x53a2_2864)
 }
 
-/// Second dimension of the Sobol' sequence as a 32-bit fraction: its generator matrix is Pascal's triangle modulo 2,
-/// which factors into five shifts.
+/// Second dimension of the Sobol' sequence as a 32-bit fraction with its bits reversed: its generator matrix is Pascal's
+/// triangle modulo 2, which factors into five shifts.
 #[inline]
 fn sobol_second(index: u32) -> u32 {
     let mut v = index;
@@ -127,8 +135,7 @@ fn sobol_second(index: u32) -> u32 {
     v ^= (v >> 8) & 0x00ff_00ff;
     v ^= (v >> 4) & 0x0f0f_0f0f;
     v ^= (v >> 2) & 0x3333_3333;
-    v ^= (v >> 1) & 0x5555_5555;
-    v.reverse_bits()
+    v ^ (v >> 1) & 0x5555_5555
 }
 
 /// Bijective 32-bit finaliser (constants of Wellons 2018, "prospecting for hash functions", lowbias32).
@@ -198,6 +205,16 @@ mod tests {
         ] {
             let c = corr(&column(a.0, a.1), &column(b.0, b.1));
             assert!(c < 5.0 / (n as f64).sqrt(), "{a:?} {b:?}: {c}");
+        }
+    }
+
+    #[test]
+    fn a_draw_that_is_skipped_leaves_the_next_ones_as_they_are() {
+        let (mut drawn, mut skipped) = (Sampler::new(3, Domain::Light, 1, 77), Sampler::new(3, Domain::Light, 1, 77));
+        for _ in 0..STRATIFIED / 2 {
+            drawn.next_1d();
+            skipped.skip();
+            assert_eq!(drawn.next_2d(), skipped.next_2d());
         }
     }
 

@@ -120,7 +120,8 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         if step == Step::Stop || scatterings >= limits.scatterings {
             break;
         }
-        let Some(s) = at.sample(sampler.next_1d(), sampler.next_2d(), mode) else { break };
+        let u_lobe = if at.bsdf.has_one_lobe() { sampler.skip() } else { sampler.next_1d() };
+        let Some(s) = at.sample(u_lobe, sampler.next_2d(), mode) else { break };
         if step == Step::OnIfDelta && !s.delta {
             break;
         }

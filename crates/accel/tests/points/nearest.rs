@@ -21,6 +21,11 @@ fn the_k_nearest_are_those_of_brute_force() {
                     tree.nearest(p, k, r_max, &mut out);
                     let found: Vec<_> = out.iter().map(|(i, d2)| (d2, i)).collect();
                     assert_eq!(found, all[..k.min(all.len())], "{}: {k} of {p} within {r_max}", set.name);
+                    tree.nearest_unordered(p, k, r_max, &mut out);
+                    assert_eq!(out.farthest(), found.last().map(|&(d2, i)| (i, d2)), "{}: {k} of {p}", set.name);
+                    let mut sorted: Vec<_> = out.iter().map(|(i, d2)| (d2, i)).collect();
+                    sorted.sort_by(|a, b| a.partial_cmp(b).expect("no NaN"));
+                    assert_eq!(sorted, found, "{}: {k} of {p} within {r_max}", set.name);
                 }
             }
         }

@@ -197,6 +197,14 @@ macro_rules! models {
     };
 }
 
+impl Bsdf {
+    /// True where [`Scatter::sample`] surely does not look at `u_lobe`.
+    #[inline]
+    pub fn has_one_lobe(&self) -> bool {
+        matches!(self, Self::Diffuse(_) | Self::Mirror(_) | Self::Black(_))
+    }
+}
+
 models![
     Diffuse / DiffuseMaterial,
     Mirror / MirrorMaterial,

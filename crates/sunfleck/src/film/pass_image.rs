@@ -66,7 +66,7 @@ impl PassImage {
         self.fill_with(|| (), |(), x, y, counts| render(x, y, counts));
     }
     /// As [`PassImage::fill`], with a scratch space made anew for each row. What is left in it may change how fast a
-    /// pixel is computed, never its value.
+    /// pixel is computed and in which order it is summed up, nothing else; rows are the same for any number of threads.
     pub fn fill_with<S>(
         &mut self,
         scratch: impl Fn() -> S + Sync,

@@ -109,7 +109,7 @@ impl NearestQuery {
     /// estimate of a constant density, `k` are not. With fewer, all of them count, over the largest disc.
     #[inline]
     pub fn find(&mut self, map: &NearestMap, p: Vec3) -> (usize, f32) {
-        map.nearest(p, self.k, self.bound(p), &mut self.found);
+        map.nearest_unordered(p, self.k, self.bound(p), &mut self.found);
         let full = if self.found.len() == self.k { self.found.farthest() } else { None };
         self.last = full.map(|(_, d2)| (p, d2.sqrt()));
         let (least, most) = (R_MIN * self.r_max, self.r_max);
@@ -120,7 +120,7 @@ impl NearestQuery {
         }
     }
     /// A radius that holds `k` photons, if the last search found so many: those are no farther than they were then plus
-    /// how far we moved. The answer is the same as with the largest radius, and comes sooner.
+    /// how far we moved. The photons found are the same as with the largest radius, if in another order, and come sooner.
     #[inline]
     fn bound(&self, p: Vec3) -> f32 {
         self.last.map_or(self.r_max, |(last, r)| ((r + p.distance(last)) * (1.0 + 1e-5)).min(self.r_max))

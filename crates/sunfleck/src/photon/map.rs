@@ -54,6 +54,11 @@ impl NearestMap {
     pub fn nearest(&self, p: Vec3, k: usize, r_max: f32, out: &mut Neighbours) {
         self.tree.nearest(p, k, r_max, out);
     }
+    /// As [`NearestMap::nearest`], but only the farthest has its place, at the end; for sums over all of them.
+    #[inline]
+    pub fn nearest_unordered(&self, p: Vec3, k: usize, r_max: f32, out: &mut Neighbours) {
+        self.tree.nearest_unordered(p, k, r_max, out);
+    }
     /// The median distance from a photon to the `k`-th nearest (itself counted; to the farthest if there are fewer), over
     /// an even choice of photons. `None` without photons, or where most of them coincide.
     pub fn spacing(&self, k: usize) -> Option<f32> {

@@ -64,11 +64,24 @@ impl KdTree {
     /// nearest first, equal distances by index. A negative or NaN `r_max`, or a `p` that is not finite, finds nothing.
     #[inline]
     pub fn nearest(&self, p: Vec3, k: usize, r_max: f32, out: &mut Neighbours) {
+        self.search(p, k, r_max, out);
+        out.sort();
+    }
+
+    /// As [`KdTree::nearest`], but only the farthest of the points found has its place, at the end; the others come in some
+    /// order that may depend on `r_max`. For few neighbours, sorting takes as long as finding.
+    #[inline]
+    pub fn nearest_unordered(&self, p: Vec3, k: usize, r_max: f32, out: &mut Neighbours) {
+        self.search(p, k, r_max, out);
+        out.put_farthest_last();
+    }
+
+    #[inline]
+    fn search(&self, p: Vec3, k: usize, r_max: f32, out: &mut Neighbours) {
         out.begin(k, r_max * r_max);
         if p.is_finite() && r_max >= 0.0 && k > 0 && !self.is_empty() {
             self.isa.run(Query::new(self, p, out));
         }
-        out.finish();
     }
 
     /// The number of points kept, which is the number of finite ones.

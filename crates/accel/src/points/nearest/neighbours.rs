@@ -1,10 +1,11 @@
 //! The best `k` so far, then the answer.
 
-/// The answer of [`KdTree::nearest`](super::KdTree::nearest): point indices and squared distances, nearest first.
+/// The answer of [`KdTree::nearest`](super::KdTree::nearest): point indices and squared distances, nearest first; or of
+/// [`KdTree::nearest_unordered`](super::KdTree::nearest_unordered), where only the last is known to be the farthest.
 /// Reuse one for many queries: it keeps its memory.
 #[derive(Clone, Debug, Default)]
 pub struct Neighbours {
-    /// Keys of what was found; a heap with the worst on top once there are `k`, sorted when the query ends.
+    /// Keys of what was found; a heap with the worst on top once there are `k`, sorted when the query ends if the caller wants it.
     keys: Vec<u64>,
     k: usize,
     /// Only keys below this one are wanted.
@@ -46,7 +47,7 @@ impl Neighbours {
         self.keys.is_empty()
     }
 
-    /// The `i`-th nearest as (index, squared distance), or `None` beyond the last.
+    /// The `i`-th of the answer as (index, squared distance), or `None` beyond the last.
     pub fn get(&self, i: usize) -> Option<(u32, f32)> {
         self.keys.get(i).map(|&key| (index_of(key), d2_of(key)))
     }
@@ -56,7 +57,7 @@ impl Neighbours {
         self.keys.last().map(|&key| (index_of(key), d2_of(key)))
     }
 
-    /// All as (index, squared distance), nearest first.
+    /// All as (index, squared distance), in the order of the answer.
     pub fn iter(&self) -> impl DoubleEndedIterator<Item = (u32, f32)> + ExactSizeIterator + '_ {
         self.keys.iter().map(|&key| (index_of(key), d2_of(key)))
     }
@@ -97,8 +98,18 @@ impl Neighbours {
 
     /// Puts the nearest first.
     #[inline]
-    pub(super) fn finish(&mut self) {
+    pub(super) fn sort(&mut self) {
         self.keys.sort_unstable();
+    }
+
+    /// Puts the farthest last and leaves the others as they are.
+    #[inline]
+    pub(super) fn put_farthest_last(&mut self) {
+        // With `k` found they are a heap.
+        let top = if self.keys.len() == self.k { Some(0) } else { (0..self.keys.len()).max_by_key(|&i| self.keys[i]) };
+        if let (Some(top), Some(last)) = (top, self.keys.len().checked_sub(1)) {
+            self.keys.swap(top, last);
+        }
     }
 }
 
