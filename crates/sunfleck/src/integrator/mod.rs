@@ -14,6 +14,7 @@ mod raycast;
 mod unified;
 mod vcm;
 
+pub use engine::{Engine, Technique};
 pub use light::LightTracer;
 pub use params::{ParamError, ParamInfo, Params};
 pub use path::PathTracer;
@@ -66,6 +67,13 @@ pub trait PassRenderer: Sync {
     /// Adds an estimate to the black `image`: a pure function of what was prepared and of the pass. The mean over
     /// passes is the picture.
     fn render_pass(&self, pass: &Pass, image: &mut PassImage);
+    /// The samplers whose sum the picture is, if the algorithm can show each alone.
+    fn techniques(&self) -> Vec<Technique> {
+        Vec::new()
+    }
+    /// Adds what one of [`PassRenderer::techniques`] alone finds in the pass: as it counts in the picture if `weighted`, else
+    /// as if it were the only sampler, which is the whole of the light that it can find.
+    fn render_technique(&self, _pass: &Pass, _technique: Technique, _weighted: bool, _image: &mut PassImage) {}
 }
 
 /// Name, purpose and maker of an algorithm.

@@ -137,6 +137,12 @@ impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
         self.render(pass, None, image);
     }
+    fn techniques(&self) -> Vec<Technique> {
+        Technique::ALL.into_iter().filter(|t| self.engine.on.includes(*t)).collect()
+    }
+    fn render_technique(&self, pass: &Pass, technique: Technique, weighted: bool, image: &mut PassImage) {
+        self.render(pass, Some(Only { technique, weighted }), image);
+    }
 }
 
 impl Prepared<'_> {

@@ -48,6 +48,16 @@ impl Merge {
 }
 
 impl Techniques {
+    /// Whether `technique` is on.
+    pub fn includes(&self, technique: Technique) -> bool {
+        match technique {
+            Technique::Hit => self.hit,
+            Technique::Nee => self.nee,
+            Technique::LightImage => self.light_image,
+            Technique::Connect => self.connect,
+            Technique::Merge => self.merge.is_on(),
+        }
+    }
     /// Whether light paths are needed.
     pub fn need_light_paths(&self) -> bool {
         self.light_image || self.connect || self.merge.is_on()
