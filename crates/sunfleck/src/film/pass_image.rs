@@ -10,6 +10,8 @@ use std::ops::AddAssign;
 pub struct Counts {
     /// Rays traced, shadow rays included.
     pub rays: u64,
+    /// Those of them that light paths took.
+    pub light_rays: u64,
     /// Light paths started.
     pub emitted: u64,
     /// Photons stored.
@@ -19,6 +21,7 @@ pub struct Counts {
 impl AddAssign for Counts {
     fn add_assign(&mut self, o: Self) {
         self.rays += o.rays;
+        self.light_rays += o.light_rays;
         self.emitted += o.emitted;
         self.stored += o.stored;
     }

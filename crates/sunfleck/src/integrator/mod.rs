@@ -3,7 +3,7 @@
 //! To add one: write `integrator/<name>.rs` with its settings, an `ENTRY` and the two traits below, and add its `mod` line
 //! and its entry to [`REGISTRY`]; command line and help run over that list.
 mod bdpt;
-pub mod engine;
+mod engine;
 mod eye_ray;
 mod light;
 mod params;
@@ -14,12 +14,11 @@ mod raycast;
 mod unified;
 mod vcm;
 
-pub use engine::{Engine, Technique};
+pub use engine::{Engine, Heuristic, Merge, Technique, Techniques};
 pub use light::LightTracer;
 pub use params::{ParamError, ParamInfo, Params};
 pub use path::PathTracer;
 pub use photonmap::PhotonMapper;
-pub use ppm::{Direct, Ppm};
 pub use raycast::RayCast;
 
 use crate::{

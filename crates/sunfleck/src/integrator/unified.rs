@@ -1,4 +1,8 @@
-//! Path tracing and photons in one, each where it is better (after Grittmann et al. 2018 and Šik & Křivánek 2019).
+//! Path tracing and photons in one, each where it is better (after Grittmann et al. 2018, "Efficient Caustic Rendering with
+//! Lightweight Photon Mapping", and Šik & Křivánek 2019, "Implementing One-Click Caustics in Corona Renderer").
+//!
+//! A short training decides for each part of the picture between a path tracer with photons for caustics alone, both weighed
+//! against each other, and photons for all that is not direct light; where no caustic is in reach, no photon is shot.
 use super::{
     Entry,
     engine::{Engine, Merge, PARAMS, Techniques},
@@ -9,7 +13,7 @@ pub(super) const ENTRY: Entry = Entry {
     about: "path tracing and photons in one, each where it is better; for everything",
     params: &PARAMS,
     mergeable: true,
-    make: |p| Ok(Box::new(Engine::from_params(ON, p)?)),
+    make: |p| Ok(Box::new(Engine { planned: true, ..Engine::from_params(ON, p)? })),
 };
 
-const ON: Techniques = Techniques { hit: true, nee: true, light_image: false, connect: false, merge: Merge::Scattered };
+const ON: Techniques = Techniques { hit: true, nee: true, light_image: false, connect: false, merge: Merge::Caustic };

@@ -3,7 +3,8 @@ use super::{
     gather::gather,
     light::{Photon, Subpaths},
     mis::{Leg, Rule, Sums},
-    techniques::Technique,
+    plan::Plan,
+    techniques::{Merge, Technique},
     track::Track,
     weights::Joint,
 };
@@ -30,6 +31,8 @@ pub(super) struct Eye<'w> {
     pub(super) map: Option<RadiusMap<Photon>>,
     pub(super) subpaths: Subpaths,
     pub(super) radii: &'w Radii,
+    /// What is merged where, if it is not the same everywhere.
+    pub(super) plan: Option<&'w Plan>,
     /// Radius of this pass over the first.
     pub(super) shrink: f32,
     /// Set to see one sampler alone.
@@ -47,6 +50,8 @@ pub(super) struct Only {
 /// Adds up what one camera path finds.
 pub(super) struct Look<'w> {
     eye: &'w Eye<'w>,
+    /// [`Eye::rule`], with the merging of this place on the picture.
+    rule: Rule,
     /// Density (1/sr) of the camera's first direction, one path a pixel.
     pdf_camera: f32,
     radius: f32,
@@ -65,11 +70,16 @@ pub(super) struct Look<'w> {
 impl<'w> Look<'w> {
     pub(super) fn new(eye: &'w Eye<'w>, start: EyeStart, counts: &'w mut Counts) -> Self {
         let radius = eye.shrink * eye.radii.at(start.raster);
+        let mut rule = eye.rule;
+        if let Some(plan) = eye.plan {
+            rule.on.merge = plan.at(start.raster);
+        }
         Self {
             eye,
+            rule,
             pdf_camera: start.pdf,
             radius,
-            eta: eye.rule.eta(radius),
+            eta: rule.eta(radius),
             partner: start.partner,
             track: Track::new(),
             from: start.from,
@@ -113,14 +123,14 @@ impl Visit for Look<'_> {
         let eye = self.eye;
         let leg = Leg::to(a.at);
         let sums = if a.scatterings == 0 {
-            eye.rule.leave_camera(self.pdf_camera, leg.d2, leg.cos)
+            self.rule.leave_camera(self.pdf_camera, leg.d2, leg.cos)
         } else {
-            self.track.after(&eye.rule, leg)
+            self.track.after(&self.rule, leg)
         };
         self.meet(a, &sums);
         // Drawn at every vertex, so that the dimensions of what follows do not depend on the material.
         let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
-        let first_only = eye.rule.on.merge.at_first_only();
+        let first_only = self.rule.on.merge.at_first_only();
         if first_only && !a.delta {
             return Step::Stop;
         }
@@ -129,38 +139,43 @@ impl Visit for Look<'_> {
         if a.scatterings >= eye.limits.scatterings || !a.at.is_connectible() {
             return Step::On;
         }
-        if eye.rule.on.nee {
-            self.choose_light(a, &sums, u_light, u);
+        let rough = self.rule.rough(&sums);
+        if self.rule.on.nee {
+            self.choose_light(a, &rough, u_light, u);
         }
-        if eye.rule.on.connect {
-            self.connect(a, &sums);
+        if self.rule.on.connect {
+            self.connect(a, &rough);
         }
-        if eye.map.is_some() {
-            self.gather(a, &sums);
+        if self.rule.on.merge.is_on() && sums.shared > 0.0 {
+            self.gather(a, &rough);
         }
-        if first_only && !eye.rule.on.nee { Step::OnIfDelta } else { Step::On }
+        if first_only && !self.rule.on.nee { Step::OnIfDelta } else { Step::On }
     }
     #[inline]
     fn scatter(&mut self, at: &Interaction, s: &Scattered) {
-        let rule = &self.eye.rule;
-        // Photons gathered at this vertex have been scattered since, unless the next is the light; `hit_weight` knows.
-        let merges = rule.merges(1) * self.track.sums.shared;
+        let rule = self.rule;
+        // Photons gathered here will have been scattered at the next vertex, by a delta lobe for all that is known: `rough`
+        // takes it back if not, and `hit_weight` if that vertex is the light.
+        let merges = rule.merges(1, true) * self.track.sums.shared;
+        if !s.delta {
+            self.track.sums = rule.rough(&self.track.sums);
+        }
         self.track.depart(at, s, merges, |_| 1.0);
     }
     #[inline]
     fn escape(&mut self, e: &Escape) {
         let eye = self.eye;
-        if !eye.rule.on.hit && e.scatterings > 0 {
+        if !self.rule.on.hit && e.scatterings > 0 {
             return;
         }
-        let sums = if e.scatterings == 0 { Sums::default() } else { self.track.after(&eye.rule, Leg::AWAY) };
+        let sums = if e.scatterings == 0 { Sums::default() } else { self.track.after(&self.rule, Leg::AWAY) };
         for sky in eye.world.escaped(self.from, e.ray.d) {
             let weight = if e.scatterings == 0 {
                 1.0
             } else {
                 let direct = if e.delta { 0.0 } else { sky.pdf_direct / e.pdf };
                 let emitted = eye.source.pdf(eye.world, sky.light, None, self.from, -e.ray.d);
-                eye.rule.hit_weight(&sums, direct, emitted, self.eta)
+                self.rule.hit_weight(&sums, direct, emitted, self.eta)
             };
             self.add(Technique::Hit, e.beta * sky.le, weight);
         }
@@ -174,7 +189,7 @@ impl Look<'_> {
         let eye = self.eye;
         let le = eye.world.emitted(a.at);
         // Lights seen directly are left to this sampler, whatever is on.
-        if le.is_black() || (!eye.rule.on.hit && a.scatterings > 0) {
+        if le.is_black() || (!self.rule.on.hit && a.scatterings > 0) {
             return;
         }
         let weight = if a.scatterings == 0 {
@@ -184,7 +199,7 @@ impl Look<'_> {
             let emitted =
                 a.at.light
                     .map_or(0.0, |light| eye.source.pdf(eye.world, light, Some(&a.at.emitter_hit()), a.at.p, a.at.wo));
-            eye.rule.hit_weight(sums, direct, emitted, self.eta)
+            self.rule.hit_weight(sums, direct, emitted, self.eta)
         };
         self.add(Technique::Hit, a.beta * le, weight);
     }
@@ -214,7 +229,7 @@ impl Look<'_> {
         let emitted_over_pdf = emitted * at.true_cos(li.wi) / (li.pdf * to_emission);
         let hit_over_pdf = if light.is_delta() { 0.0 } else { at.pdf(li.wi) / li.pdf };
         let back = at.pdf_back(li.wi);
-        let weight = self.eye.rule.nee_weight(sums, hit_over_pdf, emitted_over_pdf, back, self.eta);
+        let weight = self.rule.nee_weight(sums, hit_over_pdf, emitted_over_pdf, back, self.eta);
         self.add(Technique::Nee, a.beta * f * li.li * (1.0 / li.pdf), weight);
     }
 
@@ -239,7 +254,7 @@ impl Look<'_> {
             }
             let light = Joint { sums: &v.sums, area: a.at.pdf(wi) * v.at.true_cos(wi) / d2, back: v.at.pdf_back(-wi) };
             let camera = Joint { sums, area: v.at.pdf(-wi) * a.at.true_cos(wi) / d2, back: a.at.pdf_back(wi) };
-            let weight = eye.rule.connect_weight(&camera, &light, eye.rule.merges(v.scatterings), self.eta);
+            let weight = self.rule.connect_weight(&camera, &light, v.merges, self.eta);
             let join = Spectrum::join(a.dispersed, v.dispersed);
             self.add(Technique::Connect, a.beta * f * v.flux * (join / d2), weight);
         }
@@ -252,9 +267,14 @@ impl Look<'_> {
         let Some(map) = &eye.map else { return };
         let Some(most) = eye.limits.scatterings.checked_sub(a.scatterings + 1) else { return };
         let disc = Disc { radius: self.radius, kernel: eye.kernel };
-        let unweighted = eye.rule.on.merge.at_first_only() || eye.only.is_some_and(|o| !o.weighted);
-        let value = gather(map, a.at, disc, CameraEnd { most, dispersed: a.dispersed }, |photon, at| {
-            if unweighted { 1.0 } else { eye.rule.merge_weight(sums, &photon.sums, at, self.eta) }
+        let unweighted = self.rule.on.merge.at_first_only() || eye.only.is_some_and(|o| !o.weighted);
+        let end = CameraEnd { most, dispersed: a.dispersed };
+        let (rule, eta) = (&self.rule, self.eta);
+        let caustic = rule.on.merge == Merge::Caustic;
+        let value = gather(map, a.at, disc, end, |photon, at| match () {
+            () if caustic && !photon.caustic => 0.0,
+            () if unweighted => 1.0,
+            () => rule.merge_weight(sums, &photon.sums, at, eta),
         });
         self.add(Technique::Merge, a.beta * value, 1.0);
     }

@@ -2,7 +2,7 @@
 use super::{
     camera::Only,
     mis::{Leg, LightStart, Rule, Sums},
-    techniques::Technique,
+    techniques::{Merge, Technique},
     track::Track,
 };
 use crate::{
@@ -25,6 +25,8 @@ use rayon::prelude::*;
 pub(super) struct Shower<'w> {
     pub(super) world: &'w World<'w>,
     pub(super) rule: Rule,
+    /// Which photons are kept; `rule` says which of them are merged beside other samplers.
+    pub(super) keep: Merge,
     pub(super) source: &'w Source,
     /// When whole paths end.
     pub(super) limits: Limits,
@@ -32,8 +34,7 @@ pub(super) struct Shower<'w> {
     /// Radius of this pass over the first.
     pub(super) shrink: f32,
     pub(super) pass: &'w Pass,
-    /// Number of the first path, and how many.
-    pub(super) first: u64,
+    /// How many.
     pub(super) paths: u64,
     pub(super) spec: FilmSpec,
     /// Set to see one sampler alone.
@@ -51,6 +52,8 @@ pub(super) struct Photon {
     pub(super) scatterings: u16,
     /// Some boundary on its way parted the wavelengths.
     pub(super) dispersed: bool,
+    /// It came from a mirror or through glass last.
+    pub(super) caustic: bool,
     pub(super) sums: PhotonSums,
 }
 
@@ -72,6 +75,8 @@ pub(super) struct LightVertex {
     pub(super) scatterings: u32,
     /// Some boundary on the way parted the wavelengths.
     pub(super) dispersed: bool,
+    /// [`Rule::merges`] of it.
+    pub(super) merges: f32,
     pub(super) sums: Sums,
 }
 
@@ -114,7 +119,7 @@ impl Shower<'_> {
     }
 
     fn trace(&self, path: u64, out: &mut Chunk) {
-        let mut sampler = Sampler::new(self.pass.seed, Domain::Light, self.pass.index, self.first + path);
+        let mut sampler = Sampler::new(self.pass.seed, Domain::Light, self.pass.index, path);
         out.counts.emitted += 1;
         if let Some(emission) = self.source.emit(self.world, &mut sampler) {
             // The last scattering belongs to the camera's side.
@@ -124,6 +129,7 @@ impl Shower<'_> {
             let mut shine = Shine { shower: self, emission, track: Track::new(), merges: 0.0, out };
             let rays = walk(self.world, &start, &limits, &mut sampler, &mut shine);
             out.counts.rays += rays;
+            out.counts.light_rays += rays;
         }
         out.ends.push(out.vertices.len() as u32);
     }
@@ -176,18 +182,18 @@ impl Visit for Shine<'_, '_> {
         let rule = &self.shower.rule;
         let sums = if a.scatterings == 0 { self.leave(a.at) } else { self.track.after(rule, Leg::to(a.at)) };
         self.track.sums = sums;
-        self.merges = rule.merges(a.scatterings);
+        self.merges = rule.merges(a.scatterings, a.delta);
         // Drawn at every vertex, so that what follows does not depend on the material.
         let u_lens = if rule.on.light_image { sampler.next_2d() } else { glam::Vec2::ZERO };
         if !a.at.is_connectible() || self.shower.limits.scatterings == 0 {
             return Step::On;
         }
-        if rule.on.merge.is_on() && (a.scatterings > 0 || rule.on.merge.of_direct()) {
+        if self.shower.keep.takes(a.scatterings, a.delta) {
             self.deposit(a, &sums);
         }
         if rule.on.connect {
-            let (flux, scatterings, dispersed) = (a.beta, a.scatterings, a.dispersed);
-            self.out.vertices.push(LightVertex { at: *a.at, flux, scatterings, dispersed, sums });
+            let (flux, scatterings, dispersed, merges) = (a.beta, a.scatterings, a.dispersed, self.merges);
+            self.out.vertices.push(LightVertex { at: *a.at, flux, scatterings, dispersed, merges, sums });
         }
         if rule.on.light_image {
             self.splat(a, &sums, u_lens);
@@ -210,6 +216,7 @@ impl Shine<'_, '_> {
             // Limits are far below.
             scatterings: a.scatterings as u16,
             dispersed: a.dispersed,
+            caustic: a.delta && a.scatterings > 0,
             sums: PhotonSums { vcm: s.vcm, vc: s.vc, vm: s.vm(), geometry: s.geometry },
         });
     }

@@ -20,6 +20,10 @@
 //! no recursive form; ours is the square root of `C`, a product, which does.
 use super::techniques::{Heuristic, Merge, Techniques};
 
+/// Probability of sharing a place below which camera paths go on alone: past a matt surface, photons are not merged
+/// again, which would cost much and add little to those of the first merging.
+const APART: f32 = 0.02;
+
 /// What is the same for all weights of a pass.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rule {
@@ -77,7 +81,13 @@ impl Rule {
     #[inline]
     pub(super) fn sharing(&self, pdf_area: f32) -> f32 {
         let same = pdf_area * self.same_place;
-        if same < 1.0 { self.heuristic.of(same.sqrt()) } else { 1.0 }
+        if same >= 1.0 {
+            1.0
+        } else if same > APART {
+            self.heuristic.of(same.sqrt())
+        } else {
+            0.0
+        }
     }
 
     /// The sums of a light subpath at its first vertex (eqs. 31 to 33).
@@ -95,15 +105,19 @@ impl Rule {
         let vcm = if self.on.light_image { self.heuristic.of(self.paths * d2 / (pdf * cos)) } else { 0.0 };
         Sums { vcm, shared: 1.0, ..Sums::default() }
     }
-    /// Whether photons that were scattered `scatterings` times are merged.
+    /// 1 if photons that were scattered `scatterings` times, last by a delta lobe if `delta`, are merged beside other
+    /// samplers; else 0.
     #[inline]
-    pub(super) fn merges(&self, scatterings: u32) -> f32 {
-        let on = match self.on.merge {
-            Merge::Off | Merge::First | Merge::FirstAll => false,
-            Merge::All => true,
-            Merge::Scattered => scatterings > 0,
-        };
+    pub(super) fn merges(&self, scatterings: u32, delta: bool) -> f32 {
+        let on = self.on.merge.takes(scatterings, delta) && !self.on.merge.at_first_only();
         f32::from(u8::from(on))
+    }
+    /// The sums of a camera subpath at a vertex that goes on by a lobe with a density: merging before it would have
+    /// taken a photon from there, which only then is no caustic.
+    #[inline]
+    pub(super) fn rough(&self, s: &Sums) -> Sums {
+        let vm_last = if self.on.merge == Merge::Caustic { 0.0 } else { s.vm_last };
+        Sums { vm_last, ..*s }
     }
     /// `vcm` of a vertex past the first, drawn with density (1/sr) `pdf`, as the connection before it.
     #[inline]

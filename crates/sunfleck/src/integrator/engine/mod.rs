@@ -13,6 +13,7 @@ mod camera;
 mod gather;
 mod light;
 mod mis;
+mod plan;
 mod techniques;
 mod track;
 mod weights;
@@ -24,14 +25,15 @@ use crate::{
     camera::Project,
     film::{FilmSpec, PassImage},
     photon::{Kernel, Radii, RadiusMap, Schedule, Source, pixel_angle},
-    scene::{MID_SHUTTER, Scene},
+    scene::{MID_SHUTTER, Scene, World},
     spectrum::Wavelengths,
-    walk::Limits,
+    walk::{Limits, walk},
 };
 use camera::{Eye, EyeStart, Look, Only};
 use glam::Vec2;
-use light::Shower;
+use light::{Shower, Subpaths};
 use mis::Rule;
+use plan::Plan;
 
 /// Settings of the engine.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +54,8 @@ pub struct Engine {
     pub kernel: Kernel,
     /// What weights compare.
     pub heuristic: Heuristic,
+    /// Whether a training decides, for each part of the picture, what is merged there.
+    pub planned: bool,
 }
 
 /// First radius in widths of a pixel.
@@ -81,6 +85,7 @@ impl Engine {
             schedule: Schedule::default(),
             kernel: Kernel::Epanechnikov,
             heuristic: Heuristic::default(),
+            planned: false,
         }
     }
     /// With named settings, [`PARAMS`] and those common to all algorithms.
@@ -112,14 +117,23 @@ impl Integrator for Engine {
             spec,
         );
         let degree = seen.typical() / PIXELS * (1f32.to_radians().tan() / pixel);
-        Box::new(Prepared {
+        let mut prepared = Prepared {
             scene,
             engine: self,
             radii: self.radius.map_or(seen, Radii::fixed).scaled(self.radius_scale),
             source: Source::plain(),
             paths: if self.on.need_light_paths() { paths } else { 0 },
             same_place: std::f32::consts::PI * degree * degree,
-        })
+            plan: None,
+        };
+        if self.planned {
+            let plan = Plan::train(&prepared, spec, seed);
+            if plan.needs() == Merge::Off {
+                prepared.paths = 0;
+            }
+            prepared.plan = Some(plan);
+        }
+        Box::new(prepared)
     }
 }
 
@@ -131,43 +145,48 @@ struct Prepared<'s> {
     /// Light paths a pass.
     paths: u64,
     same_place: f32,
+    plan: Option<Plan>,
 }
 
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
-        self.render(pass, None, image);
+        self.render(&self.job(pass, None), image);
     }
     fn techniques(&self) -> Vec<Technique> {
         Technique::ALL.into_iter().filter(|t| self.engine.on.includes(*t)).collect()
     }
     fn render_technique(&self, pass: &Pass, technique: Technique, weighted: bool, image: &mut PassImage) {
-        self.render(pass, Some(Only { technique, weighted }), image);
+        self.render(&self.job(pass, Some(Only { technique, weighted })), image);
     }
 }
 
+/// What one call of the engine renders.
+#[derive(Clone, Copy)]
+struct Job<'p> {
+    pass: Pass,
+    /// Set to see one sampler alone.
+    only: Option<Only>,
+    plan: Option<&'p Plan>,
+    /// Light paths.
+    paths: u64,
+}
+
 impl Prepared<'_> {
-    fn render(&self, pass: &Pass, only: Option<Only>, image: &mut PassImage) {
-        let engine = self.engine;
-        let world = self.scene.world(pass.lambda, pass.time);
-        let spec = image.spec();
-        let shrink = engine.schedule.radius(pass.index);
-        let rule =
-            Rule { on: engine.on, heuristic: engine.heuristic, paths: self.paths as f32, same_place: self.same_place };
-        let shower = Shower {
-            world: &world,
-            rule,
-            source: &self.source,
-            limits: engine.limits,
-            radii: &self.radii,
-            shrink,
-            pass,
-            first: 0,
-            paths: self.paths,
-            spec,
-            only,
+    fn job(&self, pass: &Pass, only: Option<Only>) -> Job<'_> {
+        Job { pass: *pass, only, plan: self.plan.as_ref(), paths: self.paths }
+    }
+
+    fn render(&self, job: &Job, image: &mut PassImage) {
+        let world = self.scene.world(job.pass.lambda, job.pass.time);
+        let rule = Rule {
+            on: self.engine.on,
+            heuristic: self.engine.heuristic,
+            paths: job.paths as f32,
+            same_place: self.same_place,
         };
-        let subpaths = shower.walk(image);
-        let map = engine
+        let shrink = self.engine.schedule.radius(job.pass.index);
+        let subpaths = self.walk_light(job, &world, rule, shrink, image);
+        let map = rule
             .on
             .merge
             .is_on()
@@ -176,26 +195,45 @@ impl Prepared<'_> {
             world: &world,
             rule,
             source: &self.source,
-            limits: engine.limits,
-            kernel: engine.kernel,
+            limits: self.engine.limits,
+            kernel: self.engine.kernel,
             map,
             subpaths,
             radii: &self.radii,
             shrink,
-            only,
+            plan: job.plan,
+            only: job.only,
         };
+        let spec = image.spec();
         image.fill(|x, y, counts| {
-            let mut ray = EyeRay::new(&world, spec, pass, pass.index, (x, y));
-            let partner = if engine.on.connect { ray.sampler.next_1d() * self.paths as f32 } else { 0.0 };
+            let mut ray = EyeRay::new(&world, spec, &job.pass, job.pass.index, (x, y));
+            let partner = if rule.on.connect { ray.sampler.next_1d() * job.paths as f32 } else { 0.0 };
             let start = EyeStart {
                 raster: ray.raster,
                 from: ray.camera.ray.o,
                 pdf: spec.pixels() as f32 / ray.camera.solid_angle,
-                partner: (partner as usize).min(self.paths.saturating_sub(1) as usize),
+                partner: (partner as usize).min(job.paths.saturating_sub(1) as usize),
             };
             let mut look = Look::new(&eye, start, counts);
-            let rays = crate::walk::walk(&world, &ray.start(), &engine.limits, &mut ray.sampler, &mut look);
-            look.finish(rays).to_rgb(pass.lambda)
+            let rays = walk(&world, &ray.start(), &self.engine.limits, &mut ray.sampler, &mut look);
+            look.finish(rays).to_rgb(job.pass.lambda)
         });
+    }
+
+    fn walk_light(&self, job: &Job, world: &World, rule: Rule, shrink: f32, image: &mut PassImage) -> Subpaths {
+        let shower = Shower {
+            world,
+            rule,
+            keep: job.plan.map_or(rule.on.merge, Plan::needs),
+            source: &self.source,
+            limits: self.engine.limits,
+            radii: &self.radii,
+            shrink,
+            pass: &job.pass,
+            paths: job.paths,
+            spec: image.spec(),
+            only: job.only,
+        };
+        shower.walk(image)
     }
 }

@@ -26,6 +26,9 @@ pub enum Merge {
     /// At every camera vertex, of photons that were scattered at least once: what comes straight from a light is left to
     /// the other samplers.
     Scattered,
+    /// At every camera vertex, of photons that came from a mirror or through glass last: what other samplers find badly or
+    /// not at all.
+    Caustic,
     /// At the first camera vertex only, of scattered photons, which then find all that is not direct light.
     First,
     /// At the first camera vertex only, of every photon: no light is connected.
@@ -40,6 +43,16 @@ impl Merge {
     /// Whether photons that come straight from a light are gathered.
     pub fn of_direct(self) -> bool {
         matches!(self, Self::All | Self::FirstAll)
+    }
+    /// Whether photons that were scattered `scatterings` times, last by a delta lobe if `delta`, are gathered.
+    #[inline]
+    pub(super) fn takes(self, scatterings: u32, delta: bool) -> bool {
+        match self {
+            Self::Off => false,
+            Self::All | Self::FirstAll => true,
+            Self::Scattered | Self::First => scatterings > 0,
+            Self::Caustic => scatterings > 0 && delta,
+        }
     }
     /// Whether camera paths end where they gather first.
     pub fn at_first_only(self) -> bool {

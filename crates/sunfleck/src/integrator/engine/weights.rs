@@ -41,7 +41,7 @@ impl Rule {
     pub(super) fn nee_weight(&self, s: &Sums, hit_over_pdf: f32, emitted_over_pdf: f32, back: f32, eta: f32) -> f32 {
         let h = self.heuristic;
         let hit = if self.on.hit { h.of(hit_over_pdf) } else { 0.0 };
-        let here = if self.merges(0) > 0.0 { eta * s.shared } else { 0.0 };
+        let here = eta * s.shared * self.merges(0, false);
         weight(hit + h.of(emitted_over_pdf) * (here + s.vcm + h.of(back) * (s.vc + eta * s.vm())))
     }
 
@@ -61,8 +61,8 @@ impl Rule {
     pub(super) fn connect_weight(&self, camera: &Joint, light: &Joint, merges: f32, eta: f32) -> f32 {
         let h = self.heuristic;
         let (c, l) = (camera.sums, light.sums);
-        // Photons of the camera vertex have been scattered, at the light vertex if nowhere else.
-        let camera_merges = self.merges(1) * c.shared;
+        // Photons of the camera vertex come from the light vertex.
+        let camera_merges = self.merges(1, false) * c.shared;
         let light_shared = c.shared * self.sharing(light.area);
         let farther = light_shared * self.sharing(light.back * l.geometry);
         let on_light = h.of(light.area)
