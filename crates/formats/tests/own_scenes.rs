@@ -10,7 +10,7 @@ fn every_scene_of_ours_loads_without_a_word() {
     let mut count = 0;
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
-        if path.extension().is_none_or(|e| e != "scn" && e != "obj") {
+        if path.extension().is_none_or(|e| e != "scn" && e != "obj" && e != "pbrt") {
             continue;
         }
         count += 1;
