@@ -11,6 +11,7 @@ mod path;
 mod photonmap;
 mod ppm;
 mod raycast;
+mod sppm;
 mod unified;
 mod vcm;
 
@@ -47,6 +48,11 @@ impl Pass {
     pub fn new(seed: u64, index: u64) -> Self {
         let mut sampler = Sampler::new(seed, Domain::Pass, 0, index);
         Self { index, seed, lambda: Wavelengths::Rgb, time: sampler.next_1d() }
+    }
+    /// Pass `index` of the same render.
+    #[must_use]
+    pub fn at_index(&self, index: u64) -> Self {
+        Self::new(self.seed, index).colored(self.lambda.mode())
     }
     /// The same pass with what `color` carries in it.
     #[must_use]
@@ -90,8 +96,17 @@ pub struct Entry {
 }
 
 /// Every algorithm.
-pub const REGISTRY: &[Entry] =
-    &[raycast::ENTRY, path::ENTRY, light::ENTRY, bdpt::ENTRY, photonmap::ENTRY, ppm::ENTRY, vcm::ENTRY, unified::ENTRY];
+pub const REGISTRY: &[Entry] = &[
+    raycast::ENTRY,
+    path::ENTRY,
+    light::ENTRY,
+    bdpt::ENTRY,
+    photonmap::ENTRY,
+    ppm::ENTRY,
+    sppm::ENTRY,
+    vcm::ENTRY,
+    unified::ENTRY,
+];
 
 /// The entry called `name`.
 pub fn find(name: &str) -> Option<&'static Entry> {

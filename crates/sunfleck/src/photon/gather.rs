@@ -39,12 +39,14 @@ struct Estimate<'i> {
     /// photons are gathered: only their flux needs summing.
     matt: bool,
     sum: Spectrum,
+    /// Photons in the sum.
+    count: u32,
 }
 
 impl<'i> Estimate<'i> {
     #[inline]
     fn new(at: &'i Interaction, end: CameraEnd) -> Self {
-        Self { at, end, matt: matches!(at.bsdf, Bsdf::Diffuse(_)), sum: Spectrum::BLACK }
+        Self { at, end, matt: matches!(at.bsdf, Bsdf::Diffuse(_)), sum: Spectrum::BLACK, count: 0 }
     }
     #[inline]
     fn add(&mut self, photon: &Photon, weight: f32) {
@@ -53,10 +55,13 @@ impl<'i> Estimate<'i> {
         }
         let weight = weight * Spectrum::join(self.end.dispersed, photon.dispersed);
         if !self.matt {
-            self.sum += self.at.f_photon(photon.wi) * photon.flux * weight;
+            let f = self.at.f_photon(photon.wi);
+            self.count += u32::from(!f.is_black());
+            self.sum += f * photon.flux * weight;
             return;
         }
         if self.at.is_on_near_side(photon.wi) {
+            self.count += 1;
             self.sum += photon.flux * (weight * self.at.cos_ratio(photon.wi));
         }
     }
@@ -75,6 +80,24 @@ pub fn gather_within(map: &RadiusMap, at: &Interaction, disc: Disc, end: CameraE
     let mut estimate = Estimate::new(at, end);
     map.within(at.p, disc.radius, |photon, d2| estimate.add(photon, disc.kernel.shape(d2, r2)));
     estimate.radiance(r2)
+}
+
+/// What a gather found, not yet over the area of its disc.
+#[derive(Clone, Copy, Debug)]
+pub struct Gathered {
+    /// Flux of each photon times what scatters it toward the eye, summed: radiance times area.
+    pub flux: Spectrum,
+    /// Photons that count.
+    pub photons: u32,
+}
+
+/// As [`gather_within`] with every photon of the disc counted alike, before the division by the disc's area.
+#[inline]
+pub fn gather_counted(map: &RadiusMap, at: &Interaction, radius: f32, end: CameraEnd) -> Gathered {
+    let mut estimate = Estimate::new(at, end);
+    map.within(at.p, radius, |photon, _| estimate.add(photon, 1.0));
+    let photons = estimate.count;
+    Gathered { flux: estimate.radiance(1.0) * PI, photons }
 }
 
 /// A running search for the nearest photons, reused from place to place.

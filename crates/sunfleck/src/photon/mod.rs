@@ -25,7 +25,7 @@ pub mod source;
 pub mod survey;
 
 pub use deposit::{Catch, Keep, Photon, Shower};
-pub use gather::{CameraEnd, Disc, NearestQuery, gather_nearest, gather_within};
+pub use gather::{CameraEnd, Disc, Gathered, NearestQuery, gather_counted, gather_nearest, gather_within};
 pub use kernel::Kernel;
 pub use map::{NearestMap, RadiusMap};
 pub use radii::Radii;

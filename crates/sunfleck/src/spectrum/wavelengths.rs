@@ -14,6 +14,16 @@ pub enum Wavelengths {
     Spectral(Vec4),
 }
 
+impl Wavelengths {
+    /// Which of the two ways of carrying colours this is.
+    pub fn mode(&self) -> ColorMode {
+        match self {
+            Self::Rgb => ColorMode::Rgb,
+            Self::Spectral(_) => ColorMode::Spectral,
+        }
+    }
+}
+
 /// Whether colours are carried as RGB or by wavelength.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum ColorMode {

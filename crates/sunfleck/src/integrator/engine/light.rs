@@ -19,9 +19,9 @@ use crate::{
 };
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Light subpaths to walk.
-#[derive(Clone, Copy)]
 pub(super) struct Shower<'w> {
     pub(super) world: &'w World<'w>,
     pub(super) rule: Rule,
@@ -34,8 +34,10 @@ pub(super) struct Shower<'w> {
     /// Radius of this pass over the first.
     pub(super) shrink: f32,
     pub(super) pass: &'w Pass,
-    /// How many.
-    pub(super) paths: u64,
+    /// Numbers of the paths.
+    pub(super) paths: Range<u64>,
+    /// What splats are multiplied by.
+    pub(super) share: f32,
     pub(super) spec: FilmSpec,
     /// Set to see one sampler alone.
     pub(super) only: Option<Only>,
@@ -91,6 +93,12 @@ pub(super) struct Subpaths {
 }
 
 impl Subpaths {
+    /// Memory (bytes) that they take, the index of photons included.
+    pub(super) fn bytes(&self) -> usize {
+        // The index holds a copy of each photon and some twenty bytes of its own.
+        let photon = 2 * (size_of::<Photon>() + size_of::<Vec3>()) + 20;
+        self.photons.len() * photon + size_of_val(self.vertices.as_slice()) + size_of_val(self.ends.as_slice())
+    }
     /// The vertices of path `i`.
     #[inline]
     pub(super) fn path(&self, i: usize) -> &[LightVertex] {
@@ -105,11 +113,12 @@ const CHUNK: u64 = 1024;
 impl Shower<'_> {
     /// Walks all paths; splats connections to the lens into `image`.
     pub(super) fn walk(&self, image: &mut PassImage) -> Subpaths {
-        let chunks: Vec<Chunk> = (0..self.paths.div_ceil(CHUNK))
+        let Range { start, end } = self.paths;
+        let chunks: Vec<Chunk> = (0..(end - start).div_ceil(CHUNK))
             .into_par_iter()
             .map(|c| {
                 let mut chunk = Chunk::default();
-                for path in c * CHUNK..((c + 1) * CHUNK).min(self.paths) {
+                for path in start + c * CHUNK..(start + (c + 1) * CHUNK).min(end) {
                     self.trace(path, &mut chunk);
                 }
                 chunk
@@ -211,7 +220,7 @@ impl Shine<'_, '_> {
     fn deposit(&mut self, a: &Arrival, s: &Sums) {
         self.out.positions.push(a.at.p);
         self.out.photons.push(Photon {
-            flux: a.beta / self.shower.paths as f32,
+            flux: a.beta / self.shower.rule.paths,
             wi: a.at.wo,
             // Limits are far below.
             scatterings: a.scatterings as u16,
@@ -246,7 +255,7 @@ impl Shine<'_, '_> {
     fn splat(&mut self, a: &Arrival, s: &Sums, u_lens: Vec2) {
         let shower = self.shower;
         let Some(c) = shower.world.camera().sample_wi(a.at.p, u_lens) else { return };
-        let value = a.beta * a.at.f_cos(c.wi, Transport::Flux) * (c.importance / shower.paths as f32);
+        let value = a.beta * a.at.f_cos(c.wi, Transport::Flux) * (c.importance * shower.share / shower.rule.paths);
         if value.is_black() || shower.only.is_some_and(|o| o.technique != Technique::LightImage) {
             return;
         }

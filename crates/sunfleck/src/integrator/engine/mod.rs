@@ -34,6 +34,7 @@ use glam::Vec2;
 use light::{Shower, Subpaths};
 use mis::Rule;
 use plan::Plan;
+use std::ops::Range;
 
 /// Settings of the engine.
 #[derive(Clone, Copy, Debug)]
@@ -52,6 +53,9 @@ pub struct Engine {
     pub schedule: Schedule,
     /// What a photon counts.
     pub kernel: Kernel,
+    /// Bytes that photons and light vertices may take at once. A pass that needs more is rendered as the mean of several
+    /// complete ones with fewer light paths each.
+    pub memory: u64,
     /// What weights compare.
     pub heuristic: Heuristic,
     /// Whether a training decides, for each part of the picture, what is merged there.
@@ -64,12 +68,16 @@ const PIXELS: f32 = 4.0;
 const PATHS: std::ops::RangeInclusive<u64> = 1 << 14..=1 << 21;
 
 /// What every algorithm on the engine can be told.
-pub(super) const PARAMS: [ParamInfo; 6] = [
+pub(super) const PARAMS: [ParamInfo; 7] = [
     ParamInfo { name: "photons", about: "light paths a pass, 1 to 1e9 (default: by the size of the picture)" },
     ParamInfo { name: "radius", about: "first radius, world units > 0 (default: from what pixels cover)" },
     ParamInfo { name: "radius-scale", about: "first radius over that, 1e-6 to 1e6 (default 1)" },
     ParamInfo { name: "alpha", about: "how the radius shrinks, 0.01 to 1 (default 2/3; 1 keeps it)" },
     ParamInfo { name: "kernel", about: "constant, cone or epanechnikov (default epanechnikov)" },
+    ParamInfo {
+        name: "memory",
+        about: "bytes that light vertices may take, 1e6 to 1e15; a pass of more is split (default 2e9)",
+    },
     ParamInfo { name: "heuristic", about: "what weights compare: balance or power (default balance)" },
 ];
 
@@ -84,6 +92,7 @@ impl Engine {
             radius_scale: 1.0,
             schedule: Schedule::default(),
             kernel: Kernel::Epanechnikov,
+            memory: 2_000_000_000,
             heuristic: Heuristic::default(),
             planned: false,
         }
@@ -100,6 +109,7 @@ impl Engine {
             radius_scale: p.number("radius-scale", 1.0, 1e-6..=1e6)? as f32,
             schedule: Schedule { alpha: p.number("alpha", d.schedule.alpha, 0.01..=1.0)? },
             kernel: Kernel::ALL[p.word("kernel", d.kernel as usize, &Kernel::WORDS)?],
+            memory: p.count("memory", d.memory, 1_000_000..=1_000_000_000_000_000)?,
             heuristic: Heuristic::ALL[p.word("heuristic", d.heuristic as usize, &Heuristic::WORDS)?],
             ..d
         })
@@ -123,6 +133,7 @@ impl Integrator for Engine {
             radii: self.radius.map_or(seen, Radii::fixed).scaled(self.radius_scale),
             source: Source::plain(),
             paths: if self.on.need_light_paths() { paths } else { 0 },
+            parts: 1,
             same_place: std::f32::consts::PI * degree * degree,
             plan: None,
         };
@@ -133,6 +144,7 @@ impl Integrator for Engine {
             }
             prepared.plan = Some(plan);
         }
+        prepared.parts = prepared.count_parts(spec, seed);
         Box::new(prepared)
     }
 }
@@ -144,46 +156,82 @@ struct Prepared<'s> {
     source: Source,
     /// Light paths a pass.
     paths: u64,
+    /// Complete renders, with a share of the light paths each, that a pass is the mean of.
+    parts: u64,
     same_place: f32,
     plan: Option<Plan>,
 }
 
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
-        self.render(&self.job(pass, None), image);
+        self.render_parts(pass, None, image);
     }
     fn techniques(&self) -> Vec<Technique> {
         Technique::ALL.into_iter().filter(|t| self.engine.on.includes(*t)).collect()
     }
     fn render_technique(&self, pass: &Pass, technique: Technique, weighted: bool, image: &mut PassImage) {
-        self.render(&self.job(pass, Some(Only { technique, weighted })), image);
+        self.render_parts(pass, Some(Only { technique, weighted }), image);
     }
 }
 
 /// What one call of the engine renders.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 struct Job<'p> {
     pass: Pass,
     /// Set to see one sampler alone.
     only: Option<Only>,
     plan: Option<&'p Plan>,
+    /// Numbers of the light paths.
+    paths: Range<u64>,
+    /// Number of the camera path in each pixel.
+    sample: u64,
+    /// What the result is multiplied by.
+    share: f32,
+}
+
+impl Job<'_> {
     /// Light paths.
-    paths: u64,
+    fn count(&self) -> u64 {
+        self.paths.end - self.paths.start
+    }
 }
 
 impl Prepared<'_> {
-    fn job(&self, pass: &Pass, only: Option<Only>) -> Job<'_> {
-        Job { pass: *pass, only, plan: self.plan.as_ref(), paths: self.paths }
+    fn render_parts(&self, pass: &Pass, only: Option<Only>, image: &mut PassImage) {
+        for part in 0..self.parts {
+            let job = Job {
+                pass: *pass,
+                only,
+                plan: self.plan.as_ref(),
+                paths: self.paths * part / self.parts..self.paths * (part + 1) / self.parts,
+                sample: pass.index * self.parts + part,
+                share: 1.0 / self.parts as f32,
+            };
+            self.render(&job, image);
+        }
+    }
+
+    /// How many parts keep light vertices within the memory, going by some light paths.
+    fn count_parts(&self, spec: FilmSpec, seed: u64) -> u64 {
+        let some = self.paths.min(1024);
+        if some == 0 {
+            return 1;
+        }
+        let pass = Pass::new(seed ^ 0x7061_7274, 0);
+        let job = Job { pass, only: None, plan: self.plan.as_ref(), paths: 0..some, sample: 0, share: 1.0 };
+        let world = self.scene.world(pass.lambda, pass.time);
+        let bytes = self.walk_light(&job, &world, self.rule(some), 1.0, &mut PassImage::new(spec)).bytes();
+        let needed = bytes as f64 * self.paths as f64 / some as f64;
+        ((needed / self.engine.memory as f64).ceil() as u64).clamp(1, self.paths)
+    }
+
+    fn rule(&self, paths: u64) -> Rule {
+        Rule { on: self.engine.on, heuristic: self.engine.heuristic, paths: paths as f32, same_place: self.same_place }
     }
 
     fn render(&self, job: &Job, image: &mut PassImage) {
         let world = self.scene.world(job.pass.lambda, job.pass.time);
-        let rule = Rule {
-            on: self.engine.on,
-            heuristic: self.engine.heuristic,
-            paths: job.paths as f32,
-            same_place: self.same_place,
-        };
+        let rule = self.rule(job.count());
         let shrink = self.engine.schedule.radius(job.pass.index);
         let subpaths = self.walk_light(job, &world, rule, shrink, image);
         let map = rule
@@ -206,17 +254,17 @@ impl Prepared<'_> {
         };
         let spec = image.spec();
         image.fill(|x, y, counts| {
-            let mut ray = EyeRay::new(&world, spec, &job.pass, job.pass.index, (x, y));
-            let partner = if rule.on.connect { ray.sampler.next_1d() * job.paths as f32 } else { 0.0 };
+            let mut ray = EyeRay::new(&world, spec, &job.pass, job.sample, (x, y));
+            let partner = if rule.on.connect { ray.sampler.next_1d() * rule.paths } else { 0.0 };
             let start = EyeStart {
                 raster: ray.raster,
                 from: ray.camera.ray.o,
                 pdf: spec.pixels() as f32 / ray.camera.solid_angle,
-                partner: (partner as usize).min(job.paths.saturating_sub(1) as usize),
+                partner: (partner as usize).min(job.count().saturating_sub(1) as usize),
             };
             let mut look = Look::new(&eye, start, counts);
             let rays = walk(&world, &ray.start(), &self.engine.limits, &mut ray.sampler, &mut look);
-            look.finish(rays).to_rgb(job.pass.lambda)
+            look.finish(rays).to_rgb(job.pass.lambda) * job.share
         });
     }
 
@@ -230,7 +278,8 @@ impl Prepared<'_> {
             radii: &self.radii,
             shrink,
             pass: &job.pass,
-            paths: job.paths,
+            paths: job.paths.clone(),
+            share: job.share,
             spec: image.spec(),
             only: job.only,
         };

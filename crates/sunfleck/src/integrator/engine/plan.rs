@@ -140,7 +140,8 @@ impl Plan {
     fn job<'p>(&'p self, prepared: &Prepared, seed: u64, index: u64) -> Job<'p> {
         // Numbers that no pass of the render draws again.
         let pass = Pass::new(seed ^ 0x706c_616e, index);
-        Job { pass, only: None, plan: Some(self), paths: prepared.paths.div_ceil(TRAINING_SHARE) }
+        let paths = 0..prepared.paths.div_ceil(TRAINING_SHARE);
+        Job { pass, only: None, plan: Some(self), paths, sample: index, share: 1.0 }
     }
     /// Mean of `values` over tile `i` and its neighbours.
     fn around(&self, values: &[f64], i: usize) -> f64 {
