@@ -105,6 +105,31 @@ pub struct Start {
 ///
 /// Returns the number of rays traced.
 pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler, visitor: &mut impl Visit) -> u64 {
+    walk_by::<false>(world, start, *limits, sampler, visitor)
+}
+
+/// As [`walk`], but where a delta surface offers two ways, takes either with probability [`EVEN`] instead of in proportion to
+/// what each carries: finds what is bright behind rare reflections. [`Scattered::pdf`] stays the probability of [`walk`].
+pub fn walk_evenly(
+    world: &World,
+    start: &Start,
+    limits: &Limits,
+    sampler: &mut Sampler,
+    visitor: &mut impl Visit,
+) -> u64 {
+    walk_by::<true>(world, start, *limits, sampler, visitor)
+}
+
+/// Probability of each of two ways in [`walk_evenly`].
+pub const EVEN: f32 = 0.5;
+
+fn walk_by<const EVENLY: bool>(
+    world: &World,
+    start: &Start,
+    limits: Limits,
+    sampler: &mut Sampler,
+    visitor: &mut impl Visit,
+) -> u64 {
     let Start { mut ray, mut beta, mode, mut dispersed } = *start;
     let (mut pdf, mut delta, mut all_delta) = (1.0, true, true);
     let (mut eta_scale, mut travelled) = (1.0f32, 0.0);
@@ -121,7 +146,13 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
             break;
         }
         let u_lobe = if at.bsdf.has_one_lobe() { sampler.skip() } else { sampler.next_1d() };
-        let Some(s) = at.sample(u_lobe, sampler.next_2d(), mode) else { break };
+        let evenly = EVENLY && !at.is_connectible();
+        // The first way has the lower numbers.
+        let u_lobe = if evenly { if u_lobe < EVEN { 0.0 } else { 1.0 - f32::EPSILON } } else { u_lobe };
+        let Some(mut s) = at.sample(u_lobe, sampler.next_2d(), mode) else { break };
+        if evenly && s.pdf < 1.0 {
+            s.weight *= s.pdf / EVEN;
+        }
         if step == Step::OnIfDelta && !s.delta {
             break;
         }

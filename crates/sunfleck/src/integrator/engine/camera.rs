@@ -1,6 +1,7 @@
 //! Camera subpaths: each sampler that is on, at every vertex.
 use super::{
     gather::gather,
+    lamps::{Chain, Lamps},
     light::{Photon, Subpaths},
     mis::{Leg, Rule, Sums},
     plan::Plan,
@@ -60,6 +61,10 @@ pub(super) struct Look<'w> {
     /// Which light path is connected to; drawn once.
     partner: usize,
     track: Track,
+    /// The delta lobes so far, while there are no others.
+    chain: Option<Chain>,
+    /// The first surface was a mirror or glass.
+    mirrored: bool,
     /// Where the current leg began.
     from: Vec3,
     sum: Spectrum,
@@ -82,11 +87,22 @@ impl<'w> Look<'w> {
             eta: rule.eta(radius),
             partner: start.partner,
             track: Track::new(),
+            chain: Some(Chain::new()),
+            mirrored: false,
             from: start.from,
             sum: Spectrum::BLACK,
             rays: 0,
             counts,
         }
+    }
+    /// Whether the first surface was a mirror or glass.
+    pub(super) fn began_with_delta(&self) -> bool {
+        self.mirrored
+    }
+    /// Adds what the second walk found (see [`super::lamps`]).
+    pub(super) fn add_lamps(&mut self, lamps: &Lamps, rays: u64) {
+        self.rays += rays;
+        self.add(Technique::Hit, lamps.sum, 1.0);
     }
     /// What the path found; `rays` were traced by its walk.
     #[inline]
@@ -123,6 +139,7 @@ impl Visit for Look<'_> {
         let eye = self.eye;
         let leg = Leg::to(a.at);
         let sums = if a.scatterings == 0 {
+            self.mirrored = !a.at.is_connectible();
             self.rule.leave_camera(self.pdf_camera, leg.d2, leg.cos)
         } else {
             self.track.after(&self.rule, leg)
@@ -153,6 +170,11 @@ impl Visit for Look<'_> {
     }
     #[inline]
     fn scatter(&mut self, at: &Interaction, s: &Scattered) {
+        // The second walk ends where photons could be gathered, whatever lobe this one takes.
+        self.chain = self.chain.filter(|_| s.delta && !at.is_connectible()).map(|mut chain| {
+            chain.pass(s);
+            chain
+        });
         let rule = self.rule;
         // Photons gathered here will have been scattered at the next vertex, by a delta lobe for all that is known: `rough`
         // takes it back if not, and `hit_weight` if that vertex is the light.
@@ -170,8 +192,8 @@ impl Visit for Look<'_> {
         }
         let sums = if e.scatterings == 0 { Sums::default() } else { self.track.after(&self.rule, Leg::AWAY) };
         for sky in eye.world.escaped(self.from, e.ray.d) {
-            let weight = if e.scatterings == 0 {
-                1.0
+            let weight = if let Some(chain) = &self.chain {
+                if e.scatterings == 0 { 1.0 } else { chain.weight() }
             } else {
                 let direct = if e.delta { 0.0 } else { sky.pdf_direct / e.pdf };
                 let emitted = eye.source.pdf(eye.world, sky.light, None, self.from, -e.ray.d);
@@ -192,8 +214,8 @@ impl Look<'_> {
         if le.is_black() || (!self.rule.on.hit && a.scatterings > 0) {
             return;
         }
-        let weight = if a.scatterings == 0 {
-            1.0
+        let weight = if let Some(chain) = &self.chain {
+            if a.scatterings == 0 { 1.0 } else { chain.weight() }
         } else {
             let direct = if a.delta { 0.0 } else { eye.world.pdf_direct(self.from, -a.at.wo, a.at) / a.pdf };
             let emitted =

@@ -11,6 +11,7 @@
 //! The named algorithms that run on it are settings of [`Engine`], one file each beside this folder.
 mod camera;
 mod gather;
+mod lamps;
 mod light;
 mod mis;
 mod plan;
@@ -27,10 +28,11 @@ use crate::{
     photon::{Kernel, Radii, RadiusMap, Schedule, Source, pixel_angle},
     scene::{MID_SHUTTER, Scene, World},
     spectrum::Wavelengths,
-    walk::{Limits, walk},
+    walk::{Limits, walk, walk_evenly},
 };
 use camera::{Eye, EyeStart, Look, Only};
 use glam::Vec2;
+use lamps::Lamps;
 use light::{Shower, Subpaths};
 use mis::Rule;
 use plan::Plan;
@@ -263,7 +265,15 @@ impl Prepared<'_> {
                 partner: (partner as usize).min(job.count().saturating_sub(1) as usize),
             };
             let mut look = Look::new(&eye, start, counts);
-            let rays = walk(&world, &ray.start(), &self.engine.limits, &mut ray.sampler, &mut look);
+            let (limits, start_ray) = (&self.engine.limits, ray.start());
+            let rays = walk(&world, &start_ray, limits, &mut ray.sampler, &mut look);
+            if look.began_with_delta() {
+                // Rare ways are the point: no roulette ends them. The numbers go on from those of the first walk.
+                let limits = Limits { roulette_after: u32::MAX, ..*limits };
+                let mut lamps = Lamps::new(&world);
+                let rays = walk_evenly(&world, &start_ray, &limits, &mut ray.sampler, &mut lamps);
+                look.add_lamps(&lamps, rays);
+            }
             look.finish(rays).to_rgb(job.pass.lambda) * job.share
         });
     }
