@@ -61,7 +61,7 @@ pub(super) fn build(refs: &mut [Ref], geometries: &[Geometry], quality: Quality)
     }
     let side = Side::measure(refs);
     let (extra, crowd) = match quality {
-        Quality::Default => (0.1, 8.0),
+        Quality::Default => (0.2, 4.0),
         Quality::High => (1.0, 2.5),
     };
     let builder = Builder { geometries, largest: side.bounds.half_area() * 0.02, crowd };
