@@ -84,9 +84,11 @@ pub(super) fn intersect<S: Simd>(s: S, block: &Block, ray: &Shear<S>, tmin: f32,
     let mut x = [s.splat4(0.0); 3];
     let (mut y, mut z) = (x, x);
     for (i, vertex) in block.vertices.iter().enumerate() {
-        z[i] = s.sub4(s.load4(&vertex[kz]), ray.o[2]);
-        x[i] = s.fnmadd4(ray.slopes[0], z[i], s.sub4(s.load4(&vertex[kx]), ray.o[0]));
-        y[i] = s.fnmadd4(ray.slopes[1], z[i], s.sub4(s.load4(&vertex[ky]), ray.o[1]));
+        // SAFETY: `axes` are 0, 1 and 2 in some order.
+        let [vx, vy, vz] = unsafe { [vertex.get_unchecked(kx), vertex.get_unchecked(ky), vertex.get_unchecked(kz)] };
+        z[i] = s.sub4(s.load4(vz), ray.o[2]);
+        x[i] = s.fnmadd4(ray.slopes[0], z[i], s.sub4(s.load4(vx), ray.o[0]));
+        y[i] = s.fnmadd4(ray.slopes[1], z[i], s.sub4(s.load4(vy), ray.o[1]));
     }
     // Each product is rounded on its own: a fused operation would break the antisymmetry of shared edges.
     let u = s.sub4(s.mul4(x[2], y[1]), s.mul4(y[2], x[1]));

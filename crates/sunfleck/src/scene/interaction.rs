@@ -49,6 +49,7 @@ pub struct Scattered {
 }
 
 impl Interaction {
+    #[inline(always)]
     pub(super) fn new(s: &SurfacePoint, wo: Vec3, distance: f32, bsdf: Bsdf, light: Option<LightId>) -> Self {
         let frame = Frame::from_normal(s.n);
         Self { p: s.p, p_error: s.p_error, ng: s.ng, frame, wo, distance, uv: s.uv, bsdf, light }

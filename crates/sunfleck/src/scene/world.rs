@@ -75,7 +75,7 @@ impl<'s> World<'s> {
     }
 
     /// The first surface along `ray` (unit direction), materials resolved.
-    #[inline]
+    #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<Interaction> {
         let hit = self.moment.bvh.closest(ray)?;
         let (surface, point) = self.locate(&hit, ray);
@@ -84,7 +84,7 @@ impl<'s> World<'s> {
         Some(Interaction::new(&point, -ray.d, hit.t, bsdf, surface.light))
     }
     /// The surface that was hit and the point on it, in world space.
-    #[inline]
+    #[inline(always)]
     fn locate(&self, hit: &accel::Hit, ray: &Ray) -> (&Surface, SurfacePoint) {
         let at = ray.o + hit.t * ray.d;
         if hit.instance == accel::Hit::NO_INSTANCE {
