@@ -15,7 +15,7 @@ use sunfleck::{light::Emitter, scene::MID_SHUTTER, spectrum::Wavelengths};
 const LIGHTS_SHOWN: usize = 20;
 
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
-    let loaded = load::scene(&args.scene, &args.camera, args.compat)?;
+    let loaded = load::scene(&args.scene, &args.camera, args.compat, false)?;
     loaded.say_warnings();
     let info = Info::new(args, &loaded);
     if args.json { console::print_json(&info) } else { console::print(&info.text(&loaded)) }

@@ -8,7 +8,7 @@ mod lines;
 pub mod load;
 pub mod obj;
 mod packed;
-mod pbrt;
+pub mod pbrt;
 pub mod ply;
 pub mod scn;
 

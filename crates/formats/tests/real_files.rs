@@ -37,7 +37,14 @@ fn has_extension(path: &Path, extensions: &[&str]) -> bool {
 }
 
 fn load_one(path: &Path, compat: bool) -> Result<Loaded, Error> {
-    load(&[path.to_owned()], &LoadOptions { scn: ScnOptions { compat, ..ScnOptions::default() }, allow_outside: true })
+    load(
+        &[path.to_owned()],
+        &LoadOptions {
+            scn: ScnOptions { compat, ..ScnOptions::default() },
+            allow_outside: true,
+            ..LoadOptions::default()
+        },
+    )
 }
 
 fn print(path: &Path, warnings: &[Diagnostic]) {

@@ -5,7 +5,7 @@ use sunfleck::{
     bsdf::DiffuseMaterial,
     light::{
         AreaLight, DirectionalLight, Emitter, EmitterHit, EnvironmentLight, LeSample, LiSample, Light, LightEnd,
-        PointLight, Sides, SpotLight, Surroundings,
+        PointLight, Rim, Sides, SpotLight, Surroundings,
     },
     math::{Ray, warp::square_to_sphere},
     sampler::{Domain, Sampler},
@@ -25,10 +25,11 @@ fn lights() -> Vec<(&'static str, Light)> {
     let ball = Sphere { centre: Vec3::new(0.4, 0.2, 1.2), radius: 0.7 };
     let vertices = vec![quad.p(), quad.p() + quad.v(), quad.p() + quad.u(), Vec3::new(0.9, -0.5, 1.6)];
     let mesh = Mesh::new(vertices, vec![], vec![], vec![[0, 2, 1], [0, 1, 3]]).unwrap();
-    let spot = |angles| {
+    let spot_with = |rim, angles| {
         let (p, d) = (Vec3::new(0.2, -0.3, 1.5), Vec3::new(0.3, 0.1, -2.0));
-        Light::from(SpotLight::new(p, d, Rgb::new(3.0, 2.0, 1.0), angles).unwrap())
+        Light::from(SpotLight::new(p, d, Rgb::new(3.0, 2.0, 1.0), angles).unwrap().with_rim(rim))
     };
+    let spot = |angles| spot_with(Rim::Smooth, angles);
     vec![
         ("quad, one side", area(Shape::Parallelogram(quad), Sides::One)),
         ("quad, two sides", area(Shape::Parallelogram(quad), Sides::Two)),
@@ -38,6 +39,7 @@ fn lights() -> Vec<(&'static str, Light)> {
         ("mesh, two sides", area(Shape::Mesh(mesh), Sides::Two)),
         ("point", PointLight { p: Vec3::new(0.5, -0.2, 1.0), intensity: Rgb::new(1.0, 2.0, 3.0).into() }.into()),
         ("spot, soft", spot([0.3, 0.8])),
+        ("spot, steep", spot_with(Rim::Fourth, [0.3, 0.8])),
         ("spot, sharp", spot([0.5, 0.5])),
         ("spot, all rim", spot([0.0, 1.0])),
         ("spot, wide", spot([1.2, 2.6])),

@@ -1,9 +1,13 @@
 //! What a texture promises: a smooth picture through its pixels, with the mean of its pixels.
-use glam::Vec2;
+use glam::{Affine3A, Vec2, Vec3};
 use sunfleck::{
     sampler::{Domain, Sampler},
+    scene::{SceneBuilder, SceneError},
     spectrum::{Rgb, Wavelengths},
-    texture::{ImageTexture, Texture, Wrap},
+    texture::{
+        Checkerboard, Dots, ImageTexture, Lookup, Mapped, Mix, Noise, NoiseKind, Product, Texture, TextureId, UvMap,
+        Wrap,
+    },
 };
 
 const W: usize = 5;
@@ -50,13 +54,13 @@ fn between_pixels_it_is_linear_along_each_axis() {
 
 #[test]
 fn the_mean_over_the_square_is_the_mean_of_the_pixels() {
-    let t = Texture::Image(image(Wrap::Repeat));
+    let t = image(Wrap::Repeat);
     let n = 1 << 16;
-    let rgb = |uv| t.spectrum(uv, Wavelengths::Rgb).to_rgb(Wavelengths::Rgb);
+    let shown = [Texture::Image(t.clone())];
+    let rgb = |uv| look(&shown, uv);
     let sum =
         (0..n).fold(glam::DVec3::ZERO, |sum, i| sum + rgb(Sampler::new(0, Domain::Prepare, 0, i).next_2d()).as_dvec3());
     assert!((sum / n as f64 - t.mean().as_dvec3()).abs().max_element() < 2e-3);
-    assert_eq!(Texture::Constant(Rgb::new(0.1, 0.2, 0.3).into()).mean(), Rgb::new(0.1, 0.2, 0.3));
 }
 
 #[test]
@@ -68,4 +72,80 @@ fn far_and_broken_coordinates_give_a_colour_of_the_picture() {
             assert!(c.is_finite() && c.min_element() >= 0.0 && c.max_element() <= 10.0, "{wrap:?} {x}: {c}");
         }
     }
+}
+
+/// The values of the last of these textures at a place, in RGB.
+fn look(textures: &[Texture], uv: Vec2) -> Rgb {
+    let at = Lookup { textures, uv, p: Vec3::new(uv.x, uv.y, 0.3), lambda: Wavelengths::Rgb };
+    at.spectrum(TextureId(textures.len() as u32 - 1)).to_rgb(Wavelengths::Rgb)
+}
+
+fn places() -> impl Iterator<Item = Vec2> {
+    (0..500).map(|i| {
+        let s = &mut Sampler::new(5, Domain::Prepare, 0, i);
+        6.0 * s.next_2d() - 3.0
+    })
+}
+
+#[test]
+fn textures_made_of_others_are_what_their_parts_say() {
+    let (red, blue) = (Rgb::new(0.8, 0.1, 0.2), Rgb::new(0.1, 0.2, 0.9));
+    let parts = || vec![Texture::Constant(red.into()), Texture::Constant(blue.into())];
+    let with = |last: Texture| parts().into_iter().chain([last]).collect::<Vec<_>>();
+    let both = [TextureId(0), TextureId(1)];
+    let map = UvMap { scale: Vec2::new(2.0, 0.5), offset: Vec2::new(0.25, 0.0) };
+    let amount = Texture::Constant(Rgb::splat(0.25).into());
+    let mix = Mix { from: both[0], to: both[1], amount: TextureId(2) };
+    let mixed = [with(amount), vec![Texture::Mix(mix)]].concat();
+    let shown = image(Wrap::Repeat);
+    let moved = vec![Texture::Image(shown.clone()), Texture::Mapped(Mapped { of: TextureId(0), map })];
+    for uv in places() {
+        let is_near = |a: Rgb, b: Rgb| assert!((a - b).abs().max_element() < 1e-5, "{uv}: {a} {b}");
+        is_near(look(&with(Texture::Product(Product { of: both })), uv), red * blue);
+        is_near(look(&mixed, uv), red.lerp(blue, 0.25));
+        let q = uv * map.scale + map.offset;
+        let is_even = (q.x.floor() + q.y.floor()) as i32 % 2 == 0;
+        let board = look(&with(Texture::Checkerboard(Checkerboard { of: both, map })), uv);
+        is_near(board, if is_even { red } else { blue });
+        is_near(look(&moved, uv), shown.eval(q));
+    }
+}
+
+#[test]
+fn dots_cover_a_tenth_to_a_third_and_noise_is_smooth_and_bounded() {
+    let dots = Dots {
+        inside: TextureId(0),
+        outside: TextureId(1),
+        map: UvMap { scale: Vec2::splat(20.0), ..UvMap::default() },
+    };
+    let textures = [Texture::Constant(Rgb::ONE.into()), Texture::Constant(Rgb::ZERO.into()), Texture::Dots(dots)];
+    let inside = places().filter(|uv| look(&textures, *uv).x > 0.5).count();
+    assert!((50..170).contains(&inside), "{inside} of 500");
+    let kinds = [
+        NoiseKind::Fbm { octaves: 8, roughness: 0.5 },
+        NoiseKind::Wrinkled { octaves: 8, roughness: 0.5 },
+        NoiseKind::Windy,
+        NoiseKind::Marble { octaves: 8, roughness: 0.5, variation: 0.2 },
+    ];
+    for kind in kinds {
+        let noise = Noise { kind, pattern_from_world: Affine3A::IDENTITY };
+        let mut values = Vec::new();
+        for uv in places() {
+            let p = Vec3::new(3.0 * uv.x, 5.0 * uv.y, uv.x - uv.y);
+            let (here, beside) = (noise.eval(p), noise.eval(p + 1e-4));
+            assert!((here - beside).abs().max_element() < 0.02, "{kind:?}");
+            assert!(here.min_element() >= 0.0 && here.max_element() < 2.0, "{kind:?}: {here}");
+            values.push(here.x);
+        }
+        let (low, high) = (values.iter().copied().fold(9.0, f32::min), values.iter().copied().fold(0.0, f32::max));
+        assert!(high - low > 0.05, "{kind:?} is flat: {low} to {high}");
+    }
+}
+
+#[test]
+fn a_texture_made_of_a_later_one_is_refused() {
+    let mut builder = SceneBuilder::new();
+    builder.texture(Texture::Product(Product { of: [TextureId(0), TextureId(1)] }));
+    builder.constant(Rgb::ONE);
+    assert!(matches!(builder.build(), Err(SceneError::Missing { what: "texture", .. })));
 }

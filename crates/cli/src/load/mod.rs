@@ -36,13 +36,21 @@ pub(crate) struct Loaded {
 }
 
 /// Reads the files into one scene, adds the surroundings, and opens the eye.
-pub(crate) fn scene(args: &SceneArgs, camera: &CameraArgs, compat: Option<Compat>) -> Result<Loaded, Failure> {
+///
+/// With `stage`, a mesh alone gets a floor, a sky and an eye, unless the flags light it.
+pub(crate) fn scene(
+    args: &SceneArgs,
+    camera: &CameraArgs,
+    compat: Option<Compat>,
+    stage: bool,
+) -> Result<Loaded, Failure> {
     let scn = ScnOptions {
         compat: compat == Some(Compat::Nrenderer),
         area_light_sides: args.area_lights.map(Sides::from),
         comma: None,
     };
-    let read = formats::load(&args.files, &LoadOptions { scn, allow_outside: args.allow_outside })?;
+    let stage = stage && compat.is_none() && args.env.is_none() && args.ambient.is_none();
+    let read = formats::load(&args.files, &LoadOptions { scn, allow_outside: args.allow_outside, stage })?;
     let mut builder = read.builder;
     let surroundings = surroundings(args)?;
     let lit = surroundings.is_some();

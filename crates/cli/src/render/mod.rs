@@ -35,7 +35,7 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
     Algorithm::new(&args.algorithm, &habits, &Hints::default())?;
     let outputs = Outputs::check(&args.output, &args.scene.files)?;
     use_threads(args.budget.threads)?;
-    let loaded = load::scene(&args.scene, &args.camera, args.compat)?;
+    let loaded = load::scene(&args.scene, &args.camera, args.compat, true)?;
     let algorithm = Algorithm::new(&args.algorithm, &habits, &loaded.hints)?;
     let settings = Settings {
         spec: film_spec(&args.picture, &loaded)?,

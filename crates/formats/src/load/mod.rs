@@ -5,6 +5,7 @@
 
 mod camera;
 mod hash;
+mod stage;
 mod target;
 #[cfg(test)]
 mod tests;
@@ -27,6 +28,8 @@ pub struct LoadOptions {
     pub scn: ScnOptions,
     /// Whether a file may include others from outside of its folder.
     pub allow_outside: bool,
+    /// Whether a mesh that comes alone gets a floor, light and an eye.
+    pub stage: bool,
 }
 
 /// A scene that was read, and what its files say or imply about the picture.
@@ -62,6 +65,8 @@ pub struct SceneFormat {
     pub extensions: &'static [&'static str],
     /// One line for lists.
     pub about: &'static str,
+    /// Whether it is for things only, which usually have neither light nor camera.
+    pub is_mesh: bool,
     /// Reads it.
     pub load: LoadFn,
 }
@@ -93,6 +98,10 @@ pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
     }
     if let Some(error) = failed {
         return Err(Error { warnings: target.warnings, ..error });
+    }
+    let things_only = paths.iter().all(|path| format_of(path).is_ok_and(|f| f.is_mesh));
+    if options.stage && things_only && target.lights == 0 && target.camera.is_none() {
+        stage::set(&mut target);
     }
     warn_of_darkness(&mut target);
     let compat = options.scn.compat;

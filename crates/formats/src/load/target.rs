@@ -2,7 +2,7 @@
 
 use super::{CameraSettings, Hints, InputHash};
 use crate::diagnostic::{Diagnostic, Sink};
-use glam::Affine3A;
+use glam::{Affine3A, Vec3};
 use sunfleck::light::{Light, Sides};
 use sunfleck::scene::{MaterialId, ObjectId, SceneBuilder, SurfaceDef};
 use sunfleck::shape::Shape;
@@ -16,6 +16,7 @@ pub struct Target {
     pub(crate) camera: Option<CameraSettings>,
     /// What a file says about how to render it.
     pub(crate) hints: Option<Hints>,
+    bounds: Option<(Vec3, Vec3)>,
     pub(super) builder: SceneBuilder,
     pub(super) warnings: Vec<Diagnostic>,
     pub(super) hash: InputHash,
@@ -24,17 +25,23 @@ pub struct Target {
 }
 
 impl Target {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             sink: Sink::default(),
             camera: None,
             hints: None,
+            bounds: None,
             builder: SceneBuilder::new(),
             warnings: Vec::new(),
             hash: InputHash::new(),
             surfaces: 0,
             lights: 0,
         }
+    }
+
+    /// The scene so far.
+    pub(crate) fn into_builder(self) -> SceneBuilder {
+        self.builder
     }
 
     /// For materials and textures.
@@ -52,7 +59,30 @@ impl Target {
         let emission = emission.filter(|(radiance, _)| !radiance.is_black());
         self.surfaces += 1;
         self.lights += usize::from(emission.is_some());
+        self.extend_bounds(&shape);
         self.builder.surface(SurfaceDef { shape, material, emission });
+    }
+
+    fn extend_bounds(&mut self, shape: &Shape) {
+        let mut add = |p: Vec3| {
+            if p.is_finite() {
+                let (low, high) = self.bounds.get_or_insert((p, p));
+                (*low, *high) = (low.min(p), high.max(p));
+            }
+        };
+        match shape {
+            Shape::Mesh(mesh) => {
+                let used = mesh.indices().iter().flatten();
+                used.for_each(|i| add(mesh.positions()[*i as usize]));
+            }
+            Shape::Sphere(sphere) => [-1.0, 1.0].into_iter().for_each(|s| add(sphere.centre + s * sphere.radius)),
+            Shape::Parallelogram(patch) => patch.corners().into_iter().for_each(add),
+        }
+    }
+
+    /// The lowest and the highest coordinates of all surfaces that are no objects.
+    pub(super) fn bounds(&self) -> Option<(Vec3, Vec3)> {
+        self.bounds
     }
 
     /// Adds an object, to be placed.

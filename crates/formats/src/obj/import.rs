@@ -15,6 +15,7 @@ pub(crate) const FORMAT: SceneFormat = SceneFormat {
     name: "Wavefront OBJ",
     extensions: &["obj"],
     about: "Wavefront meshes with MTL materials: one mesh per object and material",
+    is_mesh: true,
     load,
 };
 

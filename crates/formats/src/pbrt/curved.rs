@@ -2,6 +2,7 @@
 
 use super::params::{Found, Params, single};
 use super::shapes::valid;
+use super::{curve, subdivide};
 use crate::ply::PlyMesh;
 use glam::{DVec2, DVec3};
 use std::f64::consts::TAU;
@@ -23,7 +24,10 @@ pub(super) fn whole_sphere(params: &Params) -> Found<Option<f64>> {
 }
 
 /// The mesh of a shape; `None` for what cannot be shown.
-pub(super) fn mesh(name: &str, params: &Params) -> Found<Option<PlyMesh>> {
+pub(super) fn mesh(name: &str, params: &Params, detail: f64) -> Found<Option<PlyMesh>> {
+    let revolve = |turn: f64, rows: usize, profile: &dyn Fn(f64) -> DVec3| {
+        revolve(turn, [TURN * detail, (rows as f64 * detail).ceil()], profile)
+    };
     let radius = params.number("radius", 1.0)?;
     let turn = params.number("phimax", 360.0)?.clamp(0.0, 360.0).to_radians();
     let mesh = match name {
@@ -35,19 +39,19 @@ pub(super) fn mesh(name: &str, params: &Params) -> Found<Option<PlyMesh>> {
                 let theta = from + v * (to - from);
                 radius * DVec3::new(theta.sin(), 0.0, theta.cos())
             };
-            revolve(turn, ALONG, at)
+            revolve(turn, ALONG, &at)
         }
         "cylinder" => {
             let (low, high) = (params.number("zmin", -1.0)?, params.number("zmax", 1.0)?);
-            revolve(turn, 1, |v| DVec3::new(radius, 0.0, low + v * (high - low)))
+            revolve(turn, 1, &|v| DVec3::new(radius, 0.0, low + v * (high - low)))
         }
         "disk" => {
             let (height, inner) = (params.number("height", 0.0)?, params.number("innerradius", 0.0)?);
-            revolve(turn, 1, |v| DVec3::new(radius + v * (inner - radius), 0.0, height))
+            revolve(turn, 1, &|v| DVec3::new(radius + v * (inner - radius), 0.0, height))
         }
         "cone" => {
             let height = params.number("height", 1.0)?;
-            revolve(turn, BENT, |v| DVec3::new(radius * (1.0 - v), 0.0, height * v))
+            revolve(turn, BENT, &|v| DVec3::new(radius * (1.0 - v), 0.0, height * v))
         }
         "paraboloid" => {
             let (low, high) = (params.number("zmin", 0.0)?, params.number("zmax", 1.0)?);
@@ -57,21 +61,23 @@ pub(super) fn mesh(name: &str, params: &Params) -> Found<Option<PlyMesh>> {
                 let r = a + v * (b - a);
                 DVec3::new(radius * r, 0.0, high * r * r)
             };
-            revolve(turn, ALONG, at)
+            revolve(turn, ALONG, &at)
         }
         "hyperboloid" => {
             let (p1, p2) = (params.vec3("p1")?.unwrap_or_default(), params.vec3("p2")?.unwrap_or(DVec3::ONE));
-            revolve(turn, ALONG, |v| p1.lerp(p2, v))
+            revolve(turn, ALONG, &|v| p1.lerp(p2, v))
         }
-        "bilinearmesh" => bilinear(params)?,
+        "bilinearmesh" => bilinear(params, detail)?,
+        "loopsubdiv" => subdivide::mesh(params)?,
+        "curve" => curve::mesh(params)?,
         _ => return Ok(None),
     };
     Ok(Some(mesh))
 }
 
-/// Turns a profile around z. Its pieces along v are `rows`.
-fn revolve(turn: f64, rows: usize, profile: impl Fn(f64) -> DVec3) -> PlyMesh {
-    let columns = ((TURN * turn / TAU).ceil() as usize).max(3);
+/// Turns a profile around z. There are so many pieces around a full turn and along v.
+fn revolve(turn: f64, [around_turn, along]: [f64; 2], profile: &dyn Fn(f64) -> DVec3) -> PlyMesh {
+    let (columns, rows) = (((around_turn * turn / TAU).ceil() as usize).max(3), along as usize);
     let around = |p: DVec3, phi: f64| {
         let (sin, cos) = phi.sin_cos();
         DVec3::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos, p.z)
@@ -100,17 +106,23 @@ fn grid(columns: usize, rows: usize, at: impl Fn(f64, f64) -> (DVec3, DVec3)) ->
         }
     }
     let width = columns as u32 + 1;
+    // At a pole, one side of each square is nothing.
+    let has_area = |t: &[u32; 3]| {
+        let [a, b, c] = t.map(|i| DVec3::from_array(mesh.positions[i as usize].map(f64::from)));
+        (b - a).cross(c - a).length() > 1e-9 * (b - a).length().max((c - a).length()).powi(2)
+    };
+    let mut triangles = Vec::with_capacity(2 * rows * columns);
     for y in 0..rows as u32 {
         for x in 0..columns as u32 {
             let i = y * width + x;
-            mesh.triangles.extend([[i, i + 1, i + width + 1], [i, i + width + 1, i + width]]);
+            triangles.extend([[i, i + 1, i + width + 1], [i, i + width + 1, i + width]].into_iter().filter(has_area));
         }
     }
-    mesh
+    PlyMesh { triangles, ..mesh }
 }
 
 /// Patches with corners at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1); flat ones are two triangles.
-fn bilinear(params: &Params) -> Found<PlyMesh> {
+fn bilinear(params: &Params, detail: f64) -> Found<PlyMesh> {
     let positions = params.triples("P")?;
     let (uvs, normals) = (params.pairs("uv")?, params.triples("N")?);
     params.ignore(&["faceIndices", "emissionfilename"]);
@@ -130,7 +142,9 @@ fn bilinear(params: &Params) -> Found<PlyMesh> {
         let mix = |c: [DVec3; 4], u: f64, v: f64| c[0].lerp(c[1], u).lerp(c[2].lerp(c[3], u), v);
         let bend = (p11 - p00).dot((p10 - p00).cross(p01 - p00)).abs();
         let is_flat = bend <= 1e-6 * (p10 - p00).length() * (p01 - p00).length() * (p11 - p00).length();
-        let pieces = if is_flat { 1 } else { BENT };
+        // Many patches are small ones.
+        let bent = if indices.len() > 4000 { 2 } else { (BENT as f64 * detail).ceil() as usize };
+        let pieces = if is_flat { 1 } else { bent };
         let normal = |u: f64, v: f64| {
             if normals.len() == positions.len() {
                 return mix([0, 1, 2, 3].map(|k| normals[corner(k)]), u, v);

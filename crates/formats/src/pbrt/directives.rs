@@ -4,6 +4,7 @@ use super::files::Files;
 use super::lexer::Kind;
 use super::params::{Found, Params, number};
 use super::picture::Picture;
+use super::spectra::Role;
 use super::state::{self, Attributes, Cover};
 use super::textures::Textures;
 use super::tokens::{At, Tokens};
@@ -14,6 +15,7 @@ use glam::{DAffine3, DVec3};
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use sunfleck::scene::{ObjectId, SurfaceDef};
+use sunfleck::spectrum::Colour;
 
 const DIRECTIVES: [&str; 36] = [
     "Accelerator",
@@ -57,7 +59,9 @@ const MORE_DIRECTIVES: [&str; 6] =
     ["TransformBegin", "TransformEnd", "TransformTimes", "WorldBegin", "WorldEnd", "SurfaceIntegrator"];
 
 /// Blocks may be nested this deep.
-const MAX_BLOCKS: usize = 10_000;
+const MAX_BLOCKS: usize = 1000;
+/// `Attribute` may set this many parameters for each kind of directive.
+const MAX_DEFAULTS: usize = 250;
 
 /// What is saved at the beginning of a block.
 struct Block {
@@ -81,6 +85,9 @@ pub(super) struct Importer<'t> {
     /// The object that is being defined.
     pub(super) object: Option<(String, Vec<SurfaceDef>)>,
     pub(super) picture: Picture,
+    /// Triangles that other shapes were cut into so far.
+    pub(super) cut: usize,
+    pub(super) known_spectra: HashMap<(&'static str, Role), Colour>,
     told: HashSet<String>,
 }
 
@@ -98,6 +105,8 @@ impl<'t> Importer<'t> {
             objects: HashMap::new(),
             object: None,
             picture: Picture::default(),
+            cut: 0,
+            known_spectra: HashMap::new(),
             told: HashSet::new(),
         }
     }
@@ -373,7 +382,12 @@ impl<'t> Importer<'t> {
             return Err(unknown(&params.at, "kind", kind, KINDS));
         }
         let all = Rc::make_mut(&mut self.state.defaults);
-        all.entry(kind.to_owned()).or_default().extend(params.into_list());
+        let at = params.at.clone();
+        let list = all.entry(kind.to_owned()).or_default();
+        list.extend(params.into_list());
+        if list.len() > MAX_DEFAULTS {
+            return Err(bad(&at, "pbrt::depth", "too many parameters for all that follows"));
+        }
         Ok(())
     }
 

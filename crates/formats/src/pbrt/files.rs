@@ -9,7 +9,8 @@ use std::rc::Rc;
 
 /// Where names of files start.
 pub(super) struct Files {
-    folder: PathBuf,
+    /// `None` if there are no other files.
+    folder: Option<PathBuf>,
     allow_outside: bool,
 }
 
@@ -17,13 +18,29 @@ impl Files {
     /// Names start at the folder of the file `main`.
     pub(super) fn beside(main: &Path, allow_outside: bool) -> Self {
         let folder = main.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Self { folder: folder.to_owned(), allow_outside }
+        Self { folder: Some(folder.to_owned()), allow_outside }
+    }
+
+    /// No file but the scene itself.
+    pub(super) fn none() -> Self {
+        Self { folder: None, allow_outside: false }
+    }
+
+    /// Reads a file, unpacked. Devices and pipes are none: a scene must not wait for them or fill the memory from them.
+    pub(super) fn read(&self, path: &Path) -> Result<Vec<u8>, Error> {
+        let is_special = std::fs::metadata(path).is_ok_and(|m| !m.is_file() && !m.is_dir());
+        if is_special || self.folder.is_none() {
+            let error = Diagnostic::error("file::special", "this is no ordinary file");
+            return Err(error.in_file(path.display().to_string()).into());
+        }
+        crate::packed::read(path)
     }
 
     /// The path of a file that is named at `at`: beside the main file as in pbrt, or else beside the file that names it.
     pub(super) fn find(&self, name: &str, at: &At) -> PathBuf {
         let name = name.replace('\\', "/");
-        let path = self.folder.join(&name);
+        let Some(folder) = &self.folder else { return PathBuf::from(name) };
+        let path = folder.join(&name);
         if !path.exists()
             && let Some(folder) = Path::new(at.source.name()).parent()
             && folder.join(&name).exists()
@@ -37,19 +54,24 @@ impl Files {
     pub(super) fn include(&self, at: &At, target: &mut Target) -> Found<Rc<SourceFile>> {
         let path = self.find(&at.text(), at);
         if !self.allow_outside && self.leaves(&path) {
-            let message = format!("{} lies outside of the scene's folder {}", path.display(), self.folder.display());
+            let message = format!("{} lies outside of the scene's folder", path.display());
             let error = at.tell(Diagnostic::error("pbrt::outside", message), "");
             return Err(Box::new(error.help("if the scene is to be trusted, allow it with --allow-outside")));
         }
-        let bytes = crate::packed::read(&path).map_err(|e| Box::new(at.tell(first_of(e), "named here")))?;
+        let bytes = self.read(&path).map_err(|e| Box::new(at.tell(first_of(e), "named here")))?;
         target.input(&bytes);
         Ok(Rc::new(SourceFile::from_bytes(path.display().to_string(), bytes)))
     }
 
+    /// Whether there is nothing to read.
+    pub(super) fn is_missing(&self, path: &Path) -> bool {
+        self.folder.is_none() || !path.exists()
+    }
+
     /// Whether a path leads out of the scene's folder, links followed.
     fn leaves(&self, path: &Path) -> bool {
-        match (self.folder.canonicalize(), path.canonicalize()) {
-            (Ok(folder), Ok(path)) => !path.starts_with(folder),
+        match (self.folder.as_ref().map(|f| f.canonicalize()), path.canonicalize()) {
+            (Some(Ok(folder)), Ok(path)) => !path.starts_with(folder),
             // What does not exist is told of as missing.
             _ => false,
         }

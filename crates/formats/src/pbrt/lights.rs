@@ -9,7 +9,7 @@ use super::params::{Found, Params};
 use super::spectra::Role;
 use glam::{DMat3, DVec3, Mat3, Vec3};
 use std::f32::consts::PI;
-use sunfleck::light::{DirectionalLight, EnvironmentLight, PointLight, Sides, SpotLight};
+use sunfleck::light::{DirectionalLight, EnvironmentLight, PointLight, Rim, Sides, SpotLight};
 use sunfleck::spectrum::Illuminant;
 
 const LIGHTS: [&str; 7] = ["distant", "goniometric", "infinite", "point", "projection", "spot", "exinfinite"];
@@ -114,11 +114,13 @@ impl Importer<'_> {
 
     fn cone(&mut self, params: &Params, p: Vec3, direction: Vec3, [hot, out]: [f64; 2]) -> Found<()> {
         let intensity = self.emitted(params, "I")?;
+        // Only version 4, with its smooth rim, knows `power`.
         let solid_angle = PI * (2.0 - hot.cos() - out.cos()) as f32;
         let power = self.power(params, &intensity, solid_angle)?;
         let spot = SpotLight::new(p, direction, intensity * power, [hot as f32, out as f32]);
         let spot = spot.map_err(|e| params.bad("pbrt::value", &e.to_string()))?;
-        self.target.light(spot);
+        let rim = if self.picture.is_version_3 { Rim::Fourth } else { Rim::Smooth };
+        self.target.light(spot.with_rim(rim));
         Ok(())
     }
 

@@ -11,7 +11,7 @@ use sunfleck::bsdf::{
     RoughConductorMaterial, RoughDielectricMaterial, TextureId,
 };
 use sunfleck::scene::MaterialId;
-use sunfleck::spectrum::{Ior, Named, named};
+use sunfleck::spectrum::{Ior, named};
 
 /// The models of version 4, then those of version 3.
 const MATERIALS: [&str; 25] = [
@@ -223,8 +223,7 @@ impl Importer<'_> {
         if kt != Vec3::ZERO {
             return self.dielectric(params);
         }
-        let kd = mean(self, "Kd")?;
-        if kr != Vec3::ZERO && kr.element_sum() > kd.element_sum() {
+        if kr != Vec3::ZERO && kr.element_sum() > mean(self, "Kd")?.element_sum() {
             return Ok(MirrorMaterial { reflect: self.spectrum(params, &["Kr"], Vec3::ZERO)? }.into());
         }
         Ok(self.coated("uber", params)?.into())
@@ -331,7 +330,7 @@ impl Importer<'_> {
                 Ok(self.target.builder().constant(colour))
             }
             None => {
-                let known = named(default).map_or_else(|| Vec3::ONE.into(), Named::colour);
+                let known = named(default).map_or_else(|| Vec3::ONE.into(), |n| self.known(n, Role::Index));
                 Ok(self.target.builder().constant(known))
             }
         }

@@ -8,6 +8,7 @@
 //! What pbrt means is taken from its documented file format (pbrt.org, "pbrt-v4 Input File Format" and the one of
 //! version 3) and from the book, Pharr, Jakob & Humphreys, "Physically Based Rendering", 2016 and 2023.
 
+mod curve;
 mod curved;
 mod directives;
 mod files;
@@ -21,9 +22,11 @@ mod picture;
 mod shapes;
 mod spectra;
 mod state;
+mod subdivide;
 #[cfg(test)]
 mod tests;
 mod textures;
 mod tokens;
 
 pub(crate) use import::FORMAT;
+pub use import::check;

@@ -5,10 +5,11 @@ use super::directives::{Importer, bad, unknown, warning};
 use super::files::first_of;
 use super::params::{Found, Params, single};
 use super::state::Cover;
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, SourceFile};
 use crate::ply::{self, PlyMesh};
 use glam::{Affine3A, DAffine3, Vec2, Vec3};
 use sunfleck::bsdf::BlackMaterial;
+use sunfleck::math::Motion;
 use sunfleck::scene::{MaterialId, SurfaceDef};
 use sunfleck::shape::{Shape, Sphere};
 
@@ -35,6 +36,12 @@ impl Importer<'_> {
         params.ignore(&["facenormals", "edgelength", "displacement", "shadowalpha"]);
         let visible = self.is_visible(&params);
         self.tell_unused(&params);
+        if let Some(Shape::Mesh(mesh)) = &shape
+            && name != "plymesh"
+            && name != "trianglemesh"
+        {
+            self.cut += mesh.indices().len();
+        }
         if visible && let Some(shape) = shape {
             self.add(shape, &params)?;
         }
@@ -73,11 +80,11 @@ impl Importer<'_> {
                 if moved.is_some() && !self.state.reverse {
                     return Ok(moved);
                 }
-                let mesh = curved::mesh(name, params)?;
+                let mesh = curved::mesh(name, params, self.detail())?;
                 Ok(mesh.and_then(|m| self.mesh(m, params)))
             }
             _ if SHAPES.contains(&name) => {
-                if let Some(mesh) = curved::mesh(name, params)? {
+                if let Some(mesh) = curved::mesh(name, params, self.detail())? {
                     return Ok(self.mesh(mesh, params));
                 }
                 let message = format!("shapes of the kind `{name}` are left out");
@@ -88,14 +95,23 @@ impl Importer<'_> {
         }
     }
 
+    /// How finely to cut what is not made of triangles: coarser, the more of it there is.
+    fn detail(&self) -> f64 {
+        match self.cut {
+            0..500_000 => 1.0,
+            500_000..4_000_000 => 0.25,
+            _ => 0.0625,
+        }
+    }
+
     fn ply_mesh(&mut self, params: &Params) -> Found<Option<Shape>> {
         let Some(name) = params.string("filename")? else {
             return Err(params.bad("pbrt::no-file", "a mesh needs a `filename`"));
         };
         let at = params.get("filename").map_or(&params.at, |p| &p.at).clone();
         let path = self.files.find(name, &at);
-        let source = match ply::read(&path) {
-            Ok(source) => source,
+        let source = match self.files.read(&path) {
+            Ok(bytes) => SourceFile::from_bytes(path.display().to_string(), bytes),
             Err(error) => {
                 let told = Diagnostic { severity: crate::Severity::Warning, ..first_of(error) };
                 self.target.sink.warn("pbrt::missing-mesh", || Diagnostic {
@@ -122,6 +138,13 @@ impl Importer<'_> {
         let to_world = |p: &[f32; 3]| world.transform_point3(Vec3::from_array(*p).as_dvec3()).as_vec3().to_array();
         mesh.positions.iter_mut().for_each(|p| *p = to_world(p));
         turn_normals(&mut mesh.normals, &world, self.state.reverse);
+        if lie_in_surface(&mesh) {
+            self.target.sink.warn("pbrt::normals", || {
+                let message = "the normals of most faces lie in them";
+                warning("pbrt::normals", message).in_file(name).help("the faces' own normals take their place")
+            });
+            mesh.normals.clear();
+        }
         let inside_out = (world.matrix3.determinant() < 0.0) != self.state.reverse;
         let PlyMesh { positions, normals, triangles, .. } = &mut mesh;
         for t in triangles.iter_mut() {
@@ -152,7 +175,7 @@ impl Importer<'_> {
             }
             return Ok(());
         }
-        if let Some(motion) = self.motion() {
+        if let Some(motion) = self.motion().filter(|m| shape.transformed(m).is_some()) {
             // Shown as an object that starts where it is.
             let object = self.target.object(vec![SurfaceDef { shape, material, emission }]);
             self.target.place_moving(object, Affine3A::IDENTITY, motion);
@@ -166,7 +189,7 @@ impl Importer<'_> {
     fn motion(&self) -> Option<Affine3A> {
         let [open, close] = self.state.ctm;
         let motion = rounded(&(close * open.inverse()));
-        (self.state.moves() && motion.is_finite()).then_some(motion)
+        (self.state.moves() && Motion::new(&Affine3A::IDENTITY, &motion).is_some()).then_some(motion)
     }
 
     /// `None` for what is a boundary between media only.
@@ -209,7 +232,7 @@ impl Importer<'_> {
         if let Some(object) = *object {
             let [open, close] = self.state.ctm.each_ref().map(rounded);
             if [open, close].iter().all(|m| m.is_finite() && m.matrix3.determinant() != 0.0) {
-                if open == close {
+                if open == close || Motion::new(&open, &close).is_none() {
                     self.target.place(object, open);
                 } else {
                     self.target.place_moving(object, open, close);
@@ -221,6 +244,20 @@ impl Importer<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether the normals of most faces are nearly at right angles to what the corners say: such files exist.
+fn lie_in_surface(mesh: &PlyMesh) -> bool {
+    if mesh.normals.is_empty() {
+        return false;
+    }
+    let lies = |t: &&[u32; 3]| {
+        let [a, b, c] = t.map(|i| Vec3::from_array(mesh.positions[i as usize]));
+        let ng = (b - a).cross(c - a).normalize_or_zero();
+        let n: Vec3 = t.iter().map(|i| Vec3::from_array(mesh.normals[*i as usize])).sum();
+        ng != Vec3::ZERO && ng.dot(n.normalize_or_zero()).abs() < 0.05
+    };
+    2 * mesh.triangles.iter().filter(lies).count() > mesh.triangles.len()
 }
 
 /// In the precision of the scene.

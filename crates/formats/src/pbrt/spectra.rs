@@ -8,7 +8,7 @@ use glam::{DMat3, DVec3, Vec3};
 use sunfleck::spectrum::{Colour, Curve, Illuminant, Ior, NAMED, Named, named};
 
 /// What a property of matter is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum Role {
     /// A colour: a spectrum of ones is white.
     Reflectance,
@@ -31,7 +31,7 @@ impl Importer<'_> {
         };
         match (param.kind.as_str(), &param.values) {
             ("spectrum", Values::Strings(names)) if names.len() == 1 => Ok(match self.by_name(&names[0], param)? {
-                ByName::Known(known) => of_curve(known.curve()),
+                ByName::Known(known) => self.known(known, role),
                 ByName::File(curve) => of_curve(curve),
             }),
             ("spectrum", Values::Numbers(pairs)) if pairs.len() > 1 => Ok(of_curve(curve_of(pairs, param)?)),
@@ -69,16 +69,25 @@ impl Importer<'_> {
         }
     }
 
+    /// A known spectrum as a property, made once.
+    pub(super) fn known(&mut self, known: &'static Named, role: Role) -> Colour {
+        let make = || match role {
+            Role::Reflectance => Colour::reflectance(known.curve()),
+            Role::Index => known.colour(),
+        };
+        self.known_spectra.entry((known.name, role)).or_insert_with(make).clone()
+    }
+
     fn by_name(&mut self, name: &str, param: &Param) -> Found<ByName> {
         if let Some(known) = named(name) {
             return Ok(ByName::Known(known));
         }
         let path = self.files.find(name, &param.at);
-        if !path.exists() {
+        if self.files.is_missing(&path) {
             let error = param.at.tell(Diagnostic::error("pbrt::spectrum", format!("no spectrum or file `{name}`")), "");
             return Err(Box::new(error.one_of(name, NAMED.iter().map(|n| n.name))));
         }
-        let bytes = crate::packed::read(&path).map_err(|e| Box::new(param.at.tell(first_of(e), "named here")))?;
+        let bytes = self.files.read(&path).map_err(|e| Box::new(param.at.tell(first_of(e), "named here")))?;
         self.target.input(&bytes);
         let pairs = spd(&bytes).ok_or_else(|| param.expected("a file of pairs of numbers, wavelength and value"))?;
         Ok(ByName::File(curve_of(&pairs, param)?))

@@ -4,6 +4,7 @@ use crate::load::{LoadOptions, Loaded, load};
 use crate::{Diagnostic, Error};
 use glam::{Vec2, Vec3};
 use insta::assert_snapshot;
+use proptest::prelude::*;
 use sunfleck::camera::Project;
 use sunfleck::light::Light;
 use sunfleck::math::Ray;
@@ -202,6 +203,68 @@ fn included_mistakes_name_the_included_file_and_outside_is_closed() {
     let error = load(std::slice::from_ref(&main), &LoadOptions::default()).unwrap_err();
     assert_eq!(error.errors[0].code, "pbrt::outside");
     assert!(load(&[main], &LoadOptions { allow_outside: true, ..LoadOptions::default() }).is_ok());
+}
+
+/// One of everything.
+const ALL: &str = "Film \"rgb\" \"integer xresolution\" 64 \"float iso\" 200 \"float cropwindow\" [0 1 0 .5]\n\
+    Sampler \"halton\" \"integer pixelsamples\" 4 PixelFilter \"gaussian\" Integrator \"sppm\" \"integer maxdepth\" 5\n\
+    LookAt 0 0 -5 0 0 0 0 1 0 Camera \"perspective\" \"float lensradius\" 0.1 \"float focaldistance\" 3\n\
+    WorldBegin Attribute \"shape\" \"float radius\" 2 CoordinateSystem \"c\" ConcatTransform [1 0 0 0 0 1 0 0 0 0 1 0 1 2 3 1]\n\
+    Texture \"t\" \"spectrum\" \"checkerboard\" \"rgb tex1\" [1 0 0] Texture \"s\" \"float\" \"scale\" \"float tex\" 2\n\
+    MakeNamedMaterial \"m\" \"string type\" \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"float roughness\" 0.1\n\
+    AttributeBegin NamedMaterial \"m\" Shape \"cylinder\" Shape \"cone\" Shape \"paraboloid\" Shape \"hyperboloid\" AttributeEnd\n\
+    Material \"dielectric\" \"spectrum eta\" \"glass-BK7\" Shape \"sphere\" \"float phimax\" 90 Shape \"disk\"\n\
+    Material \"mix\" \"string materials\" [\"m\" \"m\"] Material \"uber\" \"texture Kd\" \"t\"\n\
+    Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 1] Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 1]\n\
+    Shape \"loopsubdiv\" \"integer levels\" 2 \"point3 P\" [0 0 0 1 0 0 0 1 0 0 0 1] \"integer indices\" [0 2 1 0 1 3 1 2 3 2 0 3]\n\
+    ObjectBegin \"o\" Shape \"sphere\" ObjectEnd Rotate 30 0 1 0 ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\n\
+    ObjectInstance \"o\" ReverseOrientation AreaLightSource \"diffuse\" \"blackbody L\" 4000 \"float power\" 10 Shape \"sphere\"\n\
+    LightSource \"infinite\" \"float illuminance\" 3 LightSource \"spot\" \"spectrum I\" [400 1 700 2] LightSource \"projection\"\n\
+    LightSource \"distant\" LightSource \"point\" MakeNamedMedium \"f\" MediumInterface \"\" \"f\" CoordSysTransform \"c\"\n";
+
+#[test]
+fn one_of_everything_is_read() {
+    let (builder, warnings) = super::check("all.pbrt", ALL.into()).unwrap_or_else(|e| panic!("{e}"));
+    let told: Vec<String> = warnings.into_iter().map(|w| format!("{}: {}", w.code, w.message)).collect();
+    assert_snapshot!(told.join("\n"));
+    let counts = builder.build().unwrap().counts();
+    assert_eq!((counts.lights, counts.instances), (6, 2));
+}
+
+#[test]
+fn little_text_does_not_become_much_geometry() {
+    let text = format!("WorldBegin\n{}", "Shape \"sphere\" \"float zmax\" 0\n".repeat(20));
+    let (builder, _) = super::check("a.pbrt", text.into()).unwrap_or_else(|e| panic!("{e}"));
+    // Of 65,536 triangles each, the first eight take half a million; then there are fewer.
+    assert!(builder.build().unwrap().counts().triangles < 700_000);
+}
+
+proptest! {
+    // Each case cuts a dozen shapes into triangles; the fuzz target does many more.
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn no_damage_makes_the_reader_panic(
+        damage in proptest::collection::vec((any::<prop::sample::Index>(), 0..5, any::<prop::sample::Index>()), 1..6),
+    ) {
+        let mut bytes = ALL.as_bytes().to_vec();
+        for (at, kind, other) in damage {
+            let (i, j) = (at.index(bytes.len()), other.index(bytes.len()));
+            match kind {
+                0 => bytes[i] = b"\"[]#\n 09.-eE\xFF"[j % 13],
+                1 => drop(bytes.drain(i..(i + j % 40).min(bytes.len()))),
+                2 => {
+                    let piece = bytes[i..(i + j % 40).min(bytes.len())].to_vec();
+                    bytes.splice(j..j, piece);
+                }
+                3 => bytes.truncate(i.max(200)),
+                _ => drop(bytes.splice(i..i, *b" 1e30 ")),
+            }
+        }
+        match super::check("a.pbrt", bytes) {
+            Ok((_, warnings)) => prop_assert!(warnings.iter().all(|w| !w.render(false).is_empty())),
+            Err(error) => prop_assert!(error.errors.iter().all(|e| e.place.is_some())),
+        }
+    }
 }
 
 #[test]

@@ -7,10 +7,12 @@ use super::spectra::Role;
 use super::tokens::At;
 use crate::diagnostic::Diagnostic;
 use crate::image::{RgbImage32, read_image_bytes, srgb_from_linear};
-use glam::Vec3;
+use glam::{Affine3A, DAffine3, DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 use sunfleck::bsdf::TextureId;
-use sunfleck::texture::{ImageTexture, Texture, Wrap};
+use sunfleck::texture::{
+    Checkerboard, Dots, ImageTexture, Mapped, Mix, Noise, NoiseKind, Product, Texture, UvMap, Wrap,
+};
 
 const CLASSES: [&str; 14] = [
     "bilerp",
@@ -72,8 +74,25 @@ impl Importer<'_> {
             "scale" => {
                 let (a, b) = if params.get("tex1").is_some() { ("tex1", "tex2") } else { ("tex", "scale") };
                 let (a, b) = (self.operand(params, a, Vec3::ONE)?, self.operand(params, b, Vec3::ONE)?);
-                Ok(self.constant(a.mean * b.mean))
+                Ok(self.made(Texture::Product(Product { of: [a.id, b.id] }), a.mean * b.mean))
             }
+            "mix" | "directionmix" => self.mixture(class, params),
+            "checkerboard" => {
+                let (a, b) = (self.operand(params, "tex1", Vec3::ONE)?, self.operand(params, "tex2", Vec3::ZERO)?);
+                params.ignore(&["dimension", "aamode"]);
+                let map = uv_map(params)?;
+                Ok(self.made(Texture::Checkerboard(Checkerboard { of: [a.id, b.id], map }), 0.5 * (a.mean + b.mean)))
+            }
+            "dots" => {
+                let inside = self.operand(params, "inside", Vec3::ONE)?;
+                let outside = self.operand(params, "outside", Vec3::ZERO)?;
+                let map = uv_map(params)?;
+                // Half of the squares have a dot, of area π·0.35².
+                let mean = outside.mean.lerp(inside.mean, 0.19);
+                Ok(self.made(Texture::Dots(Dots { inside: inside.id, outside: outside.id, map }), mean))
+            }
+            "bilerp" | "uv" => self.corners(class, params),
+            "fbm" | "wrinkled" | "windy" | "marble" => self.noise(class, params),
             _ if CLASSES.contains(&class) => {
                 let message = format!("textures of the kind `{class}` are shown in grey");
                 self.warn_once("pbrt::texture", class, || params.at.tell(warning("pbrt::texture", message), ""));
@@ -96,6 +115,61 @@ impl Importer<'_> {
         let colour = self.colour(&param, Role::Reflectance)?;
         let mean = colour.rgb();
         Ok(Made { id: self.target.builder().constant(colour), mean })
+    }
+
+    fn made(&mut self, texture: Texture, mean: Vec3) -> Made {
+        Made { id: self.target.builder().texture(texture), mean }
+    }
+
+    fn mixture(&mut self, class: &str, params: &Params) -> Found<Made> {
+        let (a, b) = (self.operand(params, "tex1", Vec3::ZERO)?, self.operand(params, "tex2", Vec3::ONE)?);
+        if class == "directionmix" {
+            params.ignore(&["dir"]);
+            let message = "`directionmix` is shown as an even mix";
+            self.warn_once("pbrt::texture", class, || params.at.tell(warning("pbrt::texture", message), ""));
+        }
+        let amount = self.operand(params, "amount", Vec3::splat(0.5))?;
+        let mean = a.mean + (b.mean - a.mean) * amount.mean;
+        Ok(self.made(Texture::Mix(Mix { from: a.id, to: b.id, amount: amount.id }), mean))
+    }
+
+    /// Colours at the corners of the unit square, and between them.
+    fn corners(&mut self, class: &str, params: &Params) -> Found<Made> {
+        let corner = |this: &mut Self, name, default| this.operand(params, name, default).map(|made| made.mean);
+        let [v00, v10, v01, v11] = if class == "uv" {
+            [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::X + Vec3::Y]
+        } else {
+            let low = [corner(self, "v00", Vec3::ZERO)?, corner(self, "v10", Vec3::ZERO)?];
+            [low[0], low[1], corner(self, "v01", Vec3::ONE)?, corner(self, "v11", Vec3::ONE)?]
+        };
+        let map = uv_map(params)?;
+        let mean = 0.25 * (v00 + v10 + v01 + v11);
+        let Some(image) = ImageTexture::new(2, 2, vec![v01, v11, v00, v10], Wrap::Clamp) else {
+            return Ok(self.constant(mean));
+        };
+        // Centres of the pixels are the corners.
+        let of = self.target.builder().texture(Texture::Image(image));
+        let map = UvMap { scale: 0.5 * map.scale, offset: 0.25 + 0.5 * map.offset };
+        Ok(self.made(Texture::Mapped(Mapped { of, map }), mean))
+    }
+
+    fn noise(&mut self, class: &str, params: &Params) -> Found<Made> {
+        let octaves = params.integer("octaves", 0..=64)?.unwrap_or(8) as u32;
+        let roughness = params.number("roughness", 0.5)? as f32;
+        let scale = params.number("scale", 1.0)?;
+        let (kind, mean) = match class {
+            "fbm" => (NoiseKind::Fbm { octaves, roughness }, 0.2),
+            "wrinkled" => (NoiseKind::Wrinkled { octaves, roughness }, 0.5),
+            "windy" => (NoiseKind::Windy, 0.05),
+            _ => {
+                let variation = params.number("variation", 0.2)? as f32;
+                (NoiseKind::Marble { octaves, roughness, variation }, 0.8)
+            }
+        };
+        let to_pattern = DAffine3::from_scale(DVec3::splat(scale)) * self.state.world_from_object().inverse();
+        let pattern_from_world =
+            Affine3A::from_mat3_translation(to_pattern.matrix3.as_mat3(), to_pattern.translation.as_vec3());
+        Ok(self.made(Texture::Noise(Noise { kind, pattern_from_world }), Vec3::splat(mean)))
     }
 
     fn named_texture(&self, param: &Param) -> Found<Made> {
@@ -155,7 +229,12 @@ impl Importer<'_> {
         let texture = ImageTexture::new(image.width as usize, image.height as usize, pixels, wrap);
         let Some(texture) = texture else { return Ok(self.constant(MISSING)) };
         let mean = texture.mean();
-        Ok(Made { id: self.target.builder().texture(Texture::Image(texture)), mean })
+        let of = self.target.builder().texture(Texture::Image(texture));
+        let map = uv_map(params)?;
+        if map == UvMap::default() {
+            return Ok(Made { id: of, mean });
+        }
+        Ok(self.made(Texture::Mapped(Mapped { of, map }), mean))
     }
 
     /// Reads a picture that a parameter names. `None` with a warning if that fails.
@@ -165,7 +244,7 @@ impl Importer<'_> {
         };
         let at = params.get(name).map_or(&params.at, |p| &p.at).clone();
         let path = self.files.find(&file, &at);
-        let read = crate::diagnostic::read_bytes(&path).and_then(|bytes| {
+        let read = self.files.read(&path).and_then(|bytes| {
             let picture = read_image_bytes(&path.display().to_string(), &bytes)?;
             self.target.input(&bytes);
             Ok(picture.image)
@@ -180,6 +259,18 @@ impl Importer<'_> {
             }
         }
     }
+}
+
+/// Repetitions and shift of texture coordinates. Other mappings than that of the surface are taken as it.
+fn uv_map(params: &Params) -> Found<UvMap> {
+    params.ignore(&["mapping", "v1", "v2"]);
+    let pair = |version_4, version_3, default: f64| match params.maybe_number(version_4)? {
+        Some(number) => Ok(number as f32),
+        None => params.number(version_3, default).map(|n| n as f32),
+    };
+    let scale = Vec2::new(pair("su", "uscale", 1.0)?, pair("sv", "vscale", 1.0)?);
+    let offset = Vec2::new(pair("du", "udelta", 0.0)?, pair("dv", "vdelta", 0.0)?);
+    Ok(UvMap { scale, offset })
 }
 
 /// From the linear values that an 8-bit picture is read to, to those that its encoding means.

@@ -13,11 +13,12 @@ pub(crate) const FORMAT: SceneFormat = SceneFormat {
     name: "PLY",
     extensions: &["ply", "ply.gz"],
     about: "a mesh, as text or binary, with normals and texture coordinates",
+    is_mesh: true,
     load,
 };
 
 fn load(path: &Path, _: &LoadOptions, target: &mut Target) -> Result<(), Error> {
-    let source = read(path)?;
+    let source = SourceFile::from_bytes(path.display().to_string(), crate::packed::read(path)?);
     target.input(source.bytes());
     let mesh = parse(&source, &mut target.sink);
     target.sink.finish(())?;
@@ -29,14 +30,6 @@ fn load(path: &Path, _: &LoadOptions, target: &mut Target) -> Result<(), Error> 
     let material = target.builder().material(DiffuseMaterial { reflectance });
     target.surface(shape, material, None);
     Ok(())
-}
-
-/// Reads a file that may be packed.
-///
-/// # Errors
-/// As [`crate::packed::read`].
-pub(crate) fn read(path: &Path) -> Result<SourceFile, Error> {
-    Ok(SourceFile::from_bytes(path.display().to_string(), crate::packed::read(path)?))
 }
 
 /// The mesh without faces that show nothing, which are told of in one line each; `None` if nothing is left.

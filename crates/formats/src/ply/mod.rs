@@ -11,5 +11,5 @@ mod parser;
 mod tests;
 mod values;
 
-pub(crate) use import::{FORMAT, read, shape};
+pub(crate) use import::{FORMAT, shape};
 pub use parser::{PlyMesh, parse};

@@ -17,6 +17,7 @@ pub(crate) const FORMAT: SceneFormat = SceneFormat {
     name: "NRenderer scene",
     extensions: &["scn"],
     about: "NRenderer's text scenes: materials, spheres, triangles, planes, lights",
+    is_mesh: false,
     load,
 };
 

@@ -32,11 +32,9 @@ pub use phong::{Phong, PhongMaterial};
 pub use rough_conductor::{RoughConductor, RoughConductorMaterial};
 pub use rough_dielectric::{RoughDielectric, RoughDielectricMaterial};
 
-use crate::{
-    math::Local,
-    spectrum::{Spectrum, Wavelengths},
-    texture::Texture,
-};
+pub use crate::texture::{Lookup, TextureId};
+
+use crate::{math::Local, spectrum::Spectrum};
 use glam::Vec2;
 
 /// What travels from `wo`: radiance on camera paths, flux on light paths. Only refraction differs: radiance is
@@ -92,29 +90,6 @@ pub trait Scatter {
     /// True if some lobe has a density, so that photons may be stored and lights connected here.
     fn is_connectible(&self) -> bool;
 }
-
-/// What a material may look at when it is resolved at a hit.
-#[derive(Clone, Copy)]
-pub struct Lookup<'s> {
-    /// All textures of the scene.
-    pub textures: &'s [Texture],
-    /// Texture coordinates of the hit.
-    pub uv: Vec2,
-    /// What the lanes mean in this pass.
-    pub lambda: Wavelengths,
-}
-
-impl Lookup<'_> {
-    /// The colour of texture `id` here, at the wavelengths of the pass.
-    #[inline]
-    pub fn spectrum(&self, id: TextureId) -> Spectrum {
-        self.textures[id.0 as usize].spectrum(self.uv, self.lambda)
-    }
-}
-
-/// Handle of a texture of the scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct TextureId(pub u32);
 
 /// A material as the scene stores it.
 pub trait Model {

@@ -15,7 +15,7 @@ pub use area::{AreaLight, Sides};
 pub use directional::DirectionalLight;
 pub use environment::{EnvironmentError, EnvironmentLight};
 pub use point::PointLight;
-pub use spot::{SpotError, SpotLight};
+pub use spot::{Rim, SpotError, SpotLight};
 pub use table::LightTable;
 
 use crate::{

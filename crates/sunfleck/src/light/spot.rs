@@ -20,6 +20,42 @@ pub struct SpotLight {
     /// 1 − cos of `hot_spot` and of `fall_out`: exact for narrow beams too.
     hot: f32,
     out: f32,
+    rim: Rim,
+}
+
+/// How the intensity falls from `hot_spot` to `fall_out`; s runs from 0 at the latter to 1, linearly in the cosine.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rim {
+    /// By `s²(3 − 2s)`.
+    #[default]
+    Smooth,
+    /// By `s⁴`, as in pbrt up to version 3.
+    Fourth,
+}
+
+impl Rim {
+    #[inline]
+    fn falloff(self, s: f32) -> f32 {
+        match self {
+            Self::Smooth => s * s * (3.0 - 2.0 * s),
+            Self::Fourth => (s * s) * (s * s),
+        }
+    }
+    /// Integral of the falloff over s in [0, 1].
+    fn share(self) -> f32 {
+        match self {
+            Self::Smooth => 0.5,
+            Self::Fourth => 0.2,
+        }
+    }
+    /// Draws s in proportion to the falloff.
+    #[inline]
+    fn sample(self, u: f32) -> f32 {
+        match self {
+            Self::Smooth => sample_smoothstep(u),
+            Self::Fourth => u.powf(0.2),
+        }
+    }
 }
 
 /// Why numbers do not make a spot light.
@@ -70,7 +106,12 @@ impl SpotLight {
             intensity: intensity.into(),
             hot: versine(hot_spot),
             out: versine(fall_out),
+            rim: Rim::Smooth,
         })
+    }
+    /// The same light with another rim.
+    pub fn with_rim(self, rim: Rim) -> Self {
+        Self { rim, ..self }
     }
     /// Share of the intensity that leaves in the unit direction `d`.
     #[inline]
@@ -83,20 +124,20 @@ impl SpotLight {
             return 0.0;
         }
         let s = (self.out - v) / (self.out - self.hot);
-        s * s * (3.0 - 2.0 * s)
+        self.rim.falloff(s)
     }
-    /// Integral of [`SpotLight::falloff`] over directions (sr): the inner cone's solid angle and half of the rim's.
+    /// Integral of [`SpotLight::falloff`] over directions (sr): the inner cone's solid angle and a share of the rim's.
     fn solid_angle(&self) -> f32 {
-        TAU * 0.5 * (self.hot + self.out)
+        TAU * (self.hot + self.rim.share() * (self.out - self.hot))
     }
     /// `1 − cos` of the angle of a direction drawn in proportion to the falloff.
     #[inline]
     fn sample_versine(&self, u: f32) -> f32 {
-        let inner = 2.0 * self.hot / (self.hot + self.out);
+        let inner = self.hot / (self.hot + self.rim.share() * (self.out - self.hot));
         if u < inner {
             self.hot * (u / inner)
         } else {
-            self.out - (self.out - self.hot) * sample_smoothstep((u - inner) / (1.0 - inner))
+            self.out - (self.out - self.hot) * self.rim.sample((u - inner) / (1.0 - inner))
         }
     }
 }
@@ -119,7 +160,7 @@ impl Emitter for SpotLight {
     fn name(&self) -> &'static str {
         "spot"
     }
-    /// 2πI(1 − (cos hot + cos out)/2): the falloff is antisymmetric about its middle.
+    /// I times the solid angle; with a smooth rim 2πI(1 − (cos hot + cos out)/2).
     fn power(&self, _: &Surroundings) -> Rgb {
         self.intensity.rgb() * self.solid_angle()
     }

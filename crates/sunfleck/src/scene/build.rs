@@ -193,6 +193,10 @@ impl SceneBuilder {
         for t in self.materials.iter().flat_map(Material::textures) {
             check("texture", t.0, self.textures.len())?;
         }
+        // A texture is made of earlier ones, so that looking one up comes to an end.
+        for (count, t) in self.textures.iter().enumerate() {
+            t.parts().iter().try_for_each(|part| check("texture", part.0, count))?;
+        }
         self.instances.iter().try_for_each(|i| check("object", i.object.0, self.objects.len()))
     }
 

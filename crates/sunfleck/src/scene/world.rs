@@ -79,7 +79,7 @@ impl<'s> World<'s> {
     pub fn intersect(&self, ray: &Ray) -> Option<Interaction> {
         let hit = self.moment.bvh.closest(ray)?;
         let (surface, point) = self.locate(&hit, ray);
-        let at = Lookup { textures: &self.scene.textures, uv: point.uv, lambda: self.around.lambda };
+        let at = Lookup { textures: &self.scene.textures, uv: point.uv, p: point.p, lambda: self.around.lambda };
         let bsdf = self.scene.materials[surface.material.0 as usize].resolve(&at);
         Some(Interaction::new(&point, -ray.d, hit.t, bsdf, surface.light))
     }

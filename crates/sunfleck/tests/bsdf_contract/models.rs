@@ -58,7 +58,7 @@ impl Shelf {
     fn add_by_lane(&mut self, setting: &str, eta: Vec3, material: impl Into<Material>) {
         let material = material.into();
         assert!(material.textures().iter().all(|t| (t.0 as usize) < self.textures.len()));
-        let at = Lookup { textures: &self.textures, uv: Vec2::ZERO, lambda: self.lambda };
+        let at = Lookup { textures: &self.textures, uv: Vec2::ZERO, p: Vec3::ZERO, lambda: self.lambda };
         let (bsdf, model) = (material.resolve(&at), material.name());
         self.cases.push(Case { label: format!("{model} {setting}"), model, bsdf, eta });
     }
