@@ -16,4 +16,5 @@ pub(super) const ENTRY: Entry = Entry {
     make: |p| Ok(Box::new(Engine { planned: true, ..Engine::from_params(ON, p)? })),
 };
 
-const ON: Techniques = Techniques { hit: true, nee: true, light_image: false, connect: false, merge: Merge::Caustic };
+pub(super) const ON: Techniques =
+    Techniques { hit: true, nee: true, light_image: false, connect: false, merge: Merge::Caustic };

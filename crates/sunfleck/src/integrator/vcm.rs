@@ -12,4 +12,5 @@ pub(super) const ENTRY: Entry = Entry {
     make: |p| Ok(Box::new(Engine::from_params(ON, p)?)),
 };
 
-const ON: Techniques = Techniques { hit: true, nee: true, light_image: true, connect: true, merge: Merge::All };
+pub(super) const ON: Techniques =
+    Techniques { hit: true, nee: true, light_image: true, connect: true, merge: Merge::All };

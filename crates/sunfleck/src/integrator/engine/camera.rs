@@ -1,18 +1,17 @@
 //! Camera subpaths: each sampler that is on, at every vertex.
 use super::{
     gather::gather,
+    joins::{Joins, LastLeg},
     lamps::{Chain, Lamps},
     light::{Photon, Subpaths},
     mis::{Leg, Rule, Sums},
     plan::Plan,
-    techniques::{Merge, Technique},
+    techniques::Technique,
     track::Track,
-    weights::Joint,
 };
 use crate::{
     bsdf::Transport,
     film::Counts,
-    light::{Emitter, EmitterHit, LightEnd},
     photon::{CameraEnd, Disc, Kernel, Radii, RadiusMap, Source},
     sampler::Sampler,
     scene::{Interaction, Scattered, World},
@@ -137,13 +136,10 @@ impl Visit for Look<'_> {
     #[inline]
     fn surface(&mut self, a: &Arrival, sampler: &mut Sampler) -> Step {
         let eye = self.eye;
-        let leg = Leg::to(a.at);
-        let sums = if a.scatterings == 0 {
+        if a.scatterings == 0 {
             self.mirrored = !a.at.is_connectible();
-            self.rule.leave_camera(self.pdf_camera, leg.d2, leg.cos)
-        } else {
-            self.track.after(&self.rule, leg)
-        };
+        }
+        let sums = self.track.arrive_from_camera(&self.rule, self.pdf_camera, a.scatterings, a.at);
         self.meet(a, &sums);
         // Drawn at every vertex, so that the dimensions of what follows do not depend on the material.
         let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
@@ -175,14 +171,7 @@ impl Visit for Look<'_> {
             chain.pass(s);
             chain
         });
-        let rule = self.rule;
-        // Photons gathered here will have been scattered at the next vertex, by a delta lobe for all that is known: `rough`
-        // takes it back if not, and `hit_weight` if that vertex is the light.
-        let merges = rule.merges(1, true) * self.track.sums.shared;
-        if !s.delta {
-            self.track.sums = rule.rough(&self.track.sums);
-        }
-        self.track.depart(at, s, merges, |_| 1.0);
+        self.track.depart_from_camera(&self.rule, at, s);
     }
     #[inline]
     fn escape(&mut self, e: &Escape) {
@@ -195,9 +184,7 @@ impl Visit for Look<'_> {
             let weight = if let Some(chain) = &self.chain {
                 if e.scatterings == 0 { 1.0 } else { chain.weight() }
             } else {
-                let direct = if e.delta { 0.0 } else { sky.pdf_direct / e.pdf };
-                let emitted = eye.source.pdf(eye.world, sky.light, None, self.from, -e.ray.d);
-                self.rule.hit_weight(&sums, direct, emitted, self.eta)
+                self.joins().sky(&sums, LastLeg::new(self.from, e.pdf, e.delta), e.ray.d, &sky)
             };
             self.add(Technique::Hit, e.beta * sky.le, weight);
         }
@@ -205,6 +192,11 @@ impl Visit for Look<'_> {
 }
 
 impl Look<'_> {
+    #[inline]
+    fn joins(&self) -> Joins<'_> {
+        Joins { world: self.eye.world, source: self.eye.source, rule: &self.rule, eta: self.eta }
+    }
+
     /// The surface may be a light.
     #[inline]
     fn meet(&mut self, a: &Arrival, sums: &Sums) {
@@ -217,11 +209,7 @@ impl Look<'_> {
         let weight = if let Some(chain) = &self.chain {
             if a.scatterings == 0 { 1.0 } else { chain.weight() }
         } else {
-            let direct = if a.delta { 0.0 } else { eye.world.pdf_direct(self.from, -a.at.wo, a.at) / a.pdf };
-            let emitted =
-                a.at.light
-                    .map_or(0.0, |light| eye.source.pdf(eye.world, light, Some(&a.at.emitter_hit()), a.at.p, a.at.wo));
-            self.rule.hit_weight(sums, direct, emitted, self.eta)
+            self.joins().hit(sums, LastLeg::new(self.from, a.pdf, a.delta), a.at)
         };
         self.add(Technique::Hit, a.beta * le, weight);
     }
@@ -240,18 +228,7 @@ impl Look<'_> {
         if world.occluded(&at.spawn_toward(li.wi, &li.end)) {
             return;
         }
-        let light = world.light(d.light);
-        // Per area at the vertex, over the choice of the light's point in the measure of the emission.
-        let (hit, to_emission) = match &li.end {
-            LightEnd::Infinite => (None, 1.0),
-            LightEnd::Point(p) => (None, p.distance_squared(at.p)),
-            LightEnd::Surface(q) => (Some(EmitterHit { p: q.p, ng: q.ng }), q.ng.dot(li.wi).abs()),
-        };
-        let emitted = self.eye.source.pdf(world, d.light, hit.as_ref(), at.p, -li.wi);
-        let emitted_over_pdf = emitted * at.true_cos(li.wi) / (li.pdf * to_emission);
-        let hit_over_pdf = if light.is_delta() { 0.0 } else { at.pdf(li.wi) / li.pdf };
-        let back = at.pdf_back(li.wi);
-        let weight = self.rule.nee_weight(sums, hit_over_pdf, emitted_over_pdf, back, self.eta);
+        let weight = self.joins().nee(sums, at, &d);
         self.add(Technique::Nee, a.beta * f * li.li * (1.0 / li.pdf), weight);
     }
 
@@ -274,9 +251,7 @@ impl Look<'_> {
             if eye.world.occluded(&a.at.spawn_to_surface(wi, &v.at)) {
                 continue;
             }
-            let light = Joint { sums: &v.sums, area: a.at.pdf(wi) * v.at.true_cos(wi) / d2, back: v.at.pdf_back(-wi) };
-            let camera = Joint { sums, area: v.at.pdf(-wi) * a.at.true_cos(wi) / d2, back: a.at.pdf_back(wi) };
-            let weight = self.rule.connect_weight(&camera, &light, v.merges, self.eta);
+            let weight = self.joins().connect(sums, a.at, v, wi, d2);
             let join = Spectrum::join(a.dispersed, v.dispersed);
             self.add(Technique::Connect, a.beta * f * v.flux * (join / d2), weight);
         }
@@ -292,9 +267,8 @@ impl Look<'_> {
         let unweighted = self.rule.on.merge.at_first_only() || eye.only.is_some_and(|o| !o.weighted);
         let end = CameraEnd { most, dispersed: a.dispersed };
         let (rule, eta) = (&self.rule, self.eta);
-        let caustic = rule.on.merge == Merge::Caustic;
         let value = gather(map, a.at, disc, end, |photon, at| match () {
-            () if caustic && !photon.caustic => 0.0,
+            () if !rule.gathers(photon.caustic) => 0.0,
             () if unweighted => 1.0,
             () => rule.merge_weight(sums, &photon.sums, at, eta),
         });

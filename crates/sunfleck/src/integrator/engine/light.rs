@@ -1,7 +1,8 @@
 //! Light subpaths: what a pass knows of the light before the first camera ray.
 use super::{
     camera::Only,
-    mis::{Leg, LightStart, Rule, Sums},
+    joins::Departed,
+    mis::{Leg, Rule, Sums},
     techniques::{Merge, Technique},
     track::Track,
 };
@@ -10,7 +11,6 @@ use crate::{
     camera::{CameraSample, Project},
     film::{Counts, FilmSpec, PassImage, Splat},
     integrator::Pass,
-    light::{Emitter, LeOrigin},
     photon::{Emission, Radii, Source},
     sampler::{Domain, Sampler},
     scene::{Interaction, Scattered, World},
@@ -66,6 +66,12 @@ pub(super) struct PhotonSums {
     pub(super) vc: f32,
     pub(super) vm: f32,
     pub(super) geometry: f32,
+}
+
+impl From<&Sums> for PhotonSums {
+    fn from(s: &Sums) -> Self {
+        Self { vcm: s.vcm, vc: s.vc, vm: s.vm(), geometry: s.geometry }
+    }
 }
 
 /// A vertex kept for connections.
@@ -211,8 +217,7 @@ impl Visit for Shine<'_, '_> {
     }
     #[inline]
     fn scatter(&mut self, at: &Interaction, s: &Scattered) {
-        let (rule, geometry) = (&self.shower.rule, self.track.sums.geometry);
-        self.track.depart(at, s, self.merges, |back| rule.sharing(back * geometry));
+        self.track.depart_from_light(&self.shower.rule, at, s, self.merges);
     }
 }
 
@@ -226,29 +231,15 @@ impl Shine<'_, '_> {
             scatterings: a.scatterings as u16,
             dispersed: a.dispersed,
             caustic: a.delta && a.scatterings > 0,
-            sums: PhotonSums { vcm: s.vcm, vc: s.vc, vm: s.vm(), geometry: s.geometry },
+            sums: s.into(),
         });
     }
 
     /// The sums at the first vertex.
     fn leave(&self, at: &Interaction) -> Sums {
-        let world = self.shower.world;
         let Emission { light, le, pdf, .. } = &self.emission;
-        let (light, prob) = (world.light(*light), world.light_prob(*light));
-        // Density of next-event estimation, in the measure of the emission.
-        let direct = match &le.origin {
-            LeOrigin::Surface(hit) => light.pdf_li(at.p, at.wo, Some(hit)) * le.cos,
-            LeOrigin::Infinite if !light.is_delta() => light.pdf_li(at.p, at.wo, None),
-            LeOrigin::Infinite => 1.0,
-            LeOrigin::Point => at.distance * at.distance,
-        };
-        self.shower.rule.leave_light(&LightStart {
-            direct: direct * prob,
-            emitted: *pdf,
-            cos_light: le.cos,
-            hittable: !light.is_delta(),
-            cos: at.true_cos(at.wo),
-        })
+        let from = Departed { light: *light, origin: &le.origin, cos: le.cos, pdf: *pdf };
+        self.shower.rule.reach(self.shower.world, from, at)
     }
 
     /// Connects the vertex to the lens.
@@ -268,9 +259,7 @@ impl Shine<'_, '_> {
     }
     fn light_image_weight(&self, a: &Arrival, s: &Sums, c: &CameraSample) -> f32 {
         let shower = self.shower;
-        // `importance` is 1 / (solid angle per unit of raster area · squared distance), and a pixel has its share of that area.
-        let camera_area = shower.spec.pixels() as f32 * c.importance * a.at.true_cos(c.wi);
         let eta = shower.rule.eta(shower.shrink * shower.radii.at(c.raster));
-        shower.rule.light_image_weight(s, camera_area, a.at.pdf_back(c.wi), self.merges, eta)
+        shower.rule.lens(s, a.at, c, shower.spec.pixels(), self.merges, eta)
     }
 }

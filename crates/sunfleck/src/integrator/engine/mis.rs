@@ -112,6 +112,11 @@ impl Rule {
         let on = self.on.merge.takes(scatterings, delta) && !self.on.merge.at_first_only();
         f32::from(u8::from(on))
     }
+    /// Whether photons that came from a mirror or through glass last, if `caustic`, are gathered.
+    #[inline]
+    pub(super) fn gathers(&self, caustic: bool) -> bool {
+        caustic || self.on.merge != Merge::Caustic
+    }
     /// The sums of a camera subpath at a vertex that goes on by a lobe with a density: merging before it would have
     /// taken a photon from there, which only then is no caustic.
     #[inline]

@@ -11,11 +11,14 @@
 //! The named algorithms that run on it are settings of [`Engine`], one file each beside this folder.
 mod camera;
 mod gather;
+mod joins;
 mod lamps;
 mod light;
 mod mis;
 mod plan;
 mod techniques;
+#[cfg(test)]
+mod tests;
 mod track;
 mod weights;
 

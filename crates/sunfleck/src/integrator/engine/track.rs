@@ -26,7 +26,7 @@ impl Track {
     }
     /// Leaves `at`, the vertex of [`Track::sums`]. `sharing` turns the density of the way back into a correlation factor.
     #[inline]
-    pub(super) fn depart(&mut self, at: &Interaction, s: &Scattered, merges: f32, sharing: impl Fn(f32) -> f32) {
+    fn depart(&mut self, at: &Interaction, s: &Scattered, merges: f32, sharing: impl Fn(f32) -> f32) {
         let cos = at.true_cos(s.wi);
         self.departure = if s.delta {
             Departure::Passed { cos }
@@ -34,6 +34,29 @@ impl Track {
             let back = at.pdf_back(s.wi);
             Departure::Scattered { turn: Turn { forward: s.pdf, back, cos }, merges, sharing: sharing(back) }
         };
+    }
+    /// The sums of a camera subpath at `at`, reached after so many scatterings. `pdf`: as [`Rule::leave_camera`] takes it.
+    #[inline]
+    pub(super) fn arrive_from_camera(&self, rule: &Rule, pdf: f32, scatterings: u32, at: &Interaction) -> Sums {
+        let leg = Leg::to(at);
+        if scatterings == 0 { rule.leave_camera(pdf, leg.d2, leg.cos) } else { self.after(rule, leg) }
+    }
+    /// [`Track::depart`] of a camera subpath.
+    #[inline]
+    pub(super) fn depart_from_camera(&mut self, rule: &Rule, at: &Interaction, s: &Scattered) {
+        // Photons gathered here will have been scattered at the next vertex, by a delta lobe for all that is known: `rough`
+        // takes it back if not, and `hit_weight` if that vertex is the light.
+        let merges = rule.merges(1, true) * self.sums.shared;
+        if !s.delta {
+            self.sums = rule.rough(&self.sums);
+        }
+        self.depart(at, s, merges, |_| 1.0);
+    }
+    /// [`Track::depart`] of a light subpath. `merges`: [`Rule::merges`] of `at`.
+    #[inline]
+    pub(super) fn depart_from_light(&mut self, rule: &Rule, at: &Interaction, s: &Scattered, merges: f32) {
+        let geometry = self.sums.geometry;
+        self.depart(at, s, merges, |back| rule.sharing(back * geometry));
     }
     /// The sums one leg on.
     #[inline]

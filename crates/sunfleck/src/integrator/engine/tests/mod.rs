@@ -1,0 +1,275 @@
+//! The weights of all samplers that find a path sum to one: whole paths are drawn, and for each place where subpaths could
+//! be joined, both are built by the code that renders.
+mod paths;
+mod scenes;
+
+use super::{
+    Heuristic, Merge, Techniques,
+    joins::{Departed, Joins, LastLeg},
+    light::LightVertex,
+    mis::{Leg, Rule, Sums},
+    track::Track,
+    weights::Between,
+};
+use crate::{
+    camera::Project,
+    film::{FilmSpec, Filter},
+    integrator::{bdpt, unified, vcm},
+    light::{LeOrigin, LiSample, LightEnd},
+    photon::{Radii, Source},
+    sampler::{Domain, Sampler},
+    scene::{DirectSample, Interaction, MID_SHUTTER, Scattered, World},
+    shape::AreaSample,
+    spectrum::{Spectrum, Wavelengths},
+    walk::Limits,
+};
+use glam::Vec3;
+use paths::{End, Path};
+
+const SPEC: FilmSpec = FilmSpec { width: 24, height: 16, filter: Filter::Box };
+
+/// How far a sum may be from one.
+const TOLERANCE: f32 = 1e-4;
+
+/// A pass.
+struct Setting<'w> {
+    world: &'w World<'w>,
+    rule: Rule,
+    radii: &'w Radii,
+    source: Source,
+}
+
+/// A sampler and its weight.
+type Weight = (String, f32);
+
+impl Setting<'_> {
+    fn joins(&self, path: &Path) -> Joins<'_> {
+        let eta = self.rule.eta(self.radii.at(path.raster));
+        Joins { world: self.world, source: &self.source, rule: &self.rule, eta }
+    }
+
+    /// The sums of the camera's subpath on arrival at each vertex, and on arrival at the light.
+    fn camera_sums(&self, path: &Path) -> (Vec<Sums>, Sums) {
+        let pdf = SPEC.pixels() as f32 / path.camera.solid_angle;
+        let mut track = Track::new();
+        let sums = path.vertices.iter().enumerate().map(|(i, v)| {
+            let sums = track.arrive_from_camera(&self.rule, pdf, i as u32, &v.at);
+            track.sums = sums;
+            track.depart_from_camera(&self.rule, &v.at, &scattered(&v.at, v.wi, v.delta));
+            sums
+        });
+        let sums = sums.collect();
+        let last = match &path.end {
+            End::Surface(at) => track.arrive_from_camera(&self.rule, pdf, path.vertices.len() as u32, at),
+            End::Point(..) | End::Infinite(..) => track.after(&self.rule, Leg::AWAY),
+        };
+        (sums, last)
+    }
+
+    /// The light's subpath: its vertices as they would be kept, that nearest to the camera first.
+    fn light_vertices(&self, path: &Path) -> Vec<LightVertex> {
+        let mut track = Track::new();
+        let mut delta = true;
+        let mut kept: Vec<LightVertex> = (path.vertices.iter().enumerate().rev())
+            .map(|(i, v)| {
+                let at = Interaction { wo: v.wi, distance: path.leg_after(i), ..v.at };
+                let scatterings = (path.vertices.len() - 1 - i) as u32;
+                let sums = if scatterings == 0 { self.reach(path, &at) } else { track.after(&self.rule, Leg::to(&at)) };
+                track.sums = sums;
+                let merges = self.rule.merges(scatterings, delta);
+                track.depart_from_light(&self.rule, &at, &scattered(&at, v.at.wo, v.delta), merges);
+                delta = v.delta;
+                LightVertex { at, flux: Spectrum::ONE, scatterings, dispersed: false, merges, sums }
+            })
+            .collect();
+        kept.reverse();
+        kept
+    }
+    fn reach(&self, path: &Path, at: &Interaction) -> Sums {
+        let hit = if let End::Surface(q) = &path.end { Some(q.emitter_hit()) } else { None };
+        let (cos, origin) = match (&path.end, hit) {
+            (End::Surface(q), Some(hit)) => (q.true_cos(q.wo), LeOrigin::Surface(hit)),
+            (End::Infinite(..), _) => (1.0, LeOrigin::Infinite),
+            _ => (1.0, LeOrigin::Point),
+        };
+        let light = path.light();
+        let pdf = self.source.pdf(self.world, light, hit.as_ref(), at.p, -at.wo);
+        self.rule.reach(self.world, Departed { light, origin: &origin, cos, pdf }, at)
+    }
+
+    /// Whether camera paths come as far as vertex `i`: those that gather at their first vertex alone end there.
+    fn comes_to(&self, path: &Path, i: usize) -> bool {
+        !self.rule.on.merge.at_first_only() || path.vertices[..i].iter().all(|v| v.delta)
+    }
+
+    /// Every sampler that finds the path, with its weight.
+    fn weights(&self, path: &Path) -> Vec<Weight> {
+        let (camera, at_light) = self.camera_sums(path);
+        let light = self.light_vertices(path);
+        let mut all = self.of_lights(path, &camera, &at_light);
+        all.extend(self.of_lens(path, &light));
+        all.extend(self.of_connections(path, &camera, &light));
+        all.extend(self.of_merging(path, &camera, &light));
+        all
+    }
+    fn of_lights(&self, path: &Path, camera: &[Sums], at_light: &Sums) -> Vec<Weight> {
+        let (on, joins) = (&self.rule.on, self.joins(path));
+        let last = path.vertices.len() - 1;
+        let v = &path.vertices[last];
+        let mut all = Vec::new();
+        if !self.comes_to(path, last) {
+            return all;
+        }
+        if on.hit && (v.delta || on.nee || !on.merge.at_first_only()) {
+            let leg = LastLeg::new(v.at.p, v.at.pdf(v.wi), v.delta);
+            match &path.end {
+                End::Surface(at) => all.push(("hit".to_owned(), joins.hit(at_light, leg, at))),
+                End::Infinite(..) => {
+                    for sky in self.world.escaped(v.at.p, v.wi).filter(|sky| sky.light == path.light()) {
+                        all.push(("hit".to_owned(), joins.sky(at_light, leg, v.wi, &sky)));
+                    }
+                }
+                End::Point(..) => {}
+            }
+        }
+        if on.nee && !v.delta {
+            let d = self.direct(path, &v.at, v.wi);
+            all.push(("nee".to_owned(), joins.nee(&self.rule.rough(&camera[last]), &v.at, &d)));
+        }
+        all
+    }
+    /// The light's point as next-event estimation draws it.
+    fn direct(&self, path: &Path, at: &Interaction, wi: Vec3) -> DirectSample {
+        let light = path.light();
+        let (pdf, end) = match &path.end {
+            End::Surface(q) => {
+                let point = AreaSample { p: q.p, p_error: q.p_error, ng: q.ng };
+                (self.world.pdf_direct(at.p, wi, q), LightEnd::Surface(point))
+            }
+            End::Point(_, p) => (self.world.light_prob(light), LightEnd::Point(*p)),
+            End::Infinite(_) => {
+                let seen = self.world.escaped(at.p, wi).find(|sky| sky.light == light);
+                (seen.map_or(self.world.light_prob(light), |sky| sky.pdf_direct), LightEnd::Infinite)
+            }
+        };
+        DirectSample { li: LiSample { wi, li: Spectrum::ONE, pdf, delta: false, end }, light }
+    }
+    fn of_lens(&self, path: &Path, light: &[LightVertex]) -> Option<Weight> {
+        let v = &light[0];
+        if !self.rule.on.light_image || path.vertices[0].delta {
+            return None;
+        }
+        let c = self.world.camera().sample_wi(v.at.p, path.u_lens).expect("a vertex that the camera sees");
+        let eta = self.rule.eta(self.radii.at(c.raster));
+        Some(("light image".to_owned(), self.rule.lens(&v.sums, &v.at, &c, SPEC.pixels(), v.merges, eta)))
+    }
+    fn of_connections(&self, path: &Path, camera: &[Sums], light: &[LightVertex]) -> Vec<Weight> {
+        let joins = self.joins(path);
+        let connect = |i: usize| {
+            let (v, next) = (&path.vertices[i], &path.vertices[i + 1]);
+            (self.rule.on.connect && !v.delta && !next.delta).then(|| {
+                let d2 = path.leg_after(i).powi(2);
+                let sums = self.rule.rough(&camera[i]);
+                (format!("connection {i}"), joins.connect(&sums, &v.at, &light[i + 1], v.wi, d2))
+            })
+        };
+        (0..path.vertices.len() - 1).filter_map(connect).collect()
+    }
+    fn of_merging(&self, path: &Path, camera: &[Sums], light: &[LightVertex]) -> Vec<Weight> {
+        let (rule, joins) = (&self.rule, self.joins(path));
+        let merge = |i: usize| {
+            let (v, photon) = (&path.vertices[i], &light[i]);
+            // What a light sends out counts as from a delta lobe.
+            let delta = path.vertices.get(i + 1).is_none_or(|v| v.delta);
+            let caustic = delta && photon.scatterings > 0;
+            let kept = rule.on.merge.takes(photon.scatterings, delta) && rule.gathers(caustic);
+            (kept && !v.delta && camera[i].shared > 0.0 && self.comes_to(path, i)).then(|| {
+                let at = Between { forward: v.at.pdf(v.wi), back: v.at.pdf_back(v.wi) };
+                let weight = if rule.on.merge.at_first_only() {
+                    1.0
+                } else {
+                    rule.merge_weight(&rule.rough(&camera[i]), &(&photon.sums).into(), at, joins.eta)
+                };
+                (format!("merging {i}"), weight)
+            })
+        };
+        (0..path.vertices.len()).filter_map(merge).collect()
+    }
+}
+
+fn scattered(at: &Interaction, wi: Vec3, delta: bool) -> Scattered {
+    let pdf = if delta { 1.0 } else { at.pdf(wi) };
+    Scattered { wi, weight: Spectrum::ONE, pdf, delta, eta: 1.0, disperses: false }
+}
+
+/// The presets and what lies between them.
+fn samplers() -> Vec<Techniques> {
+    let paths = Techniques { merge: Merge::Off, ..unified::ON };
+    let with = |on: Techniques, merge| Techniques { merge, ..on };
+    vec![
+        paths,
+        bdpt::ON,
+        vcm::ON,
+        unified::ON,
+        with(vcm::ON, Merge::Scattered),
+        with(vcm::ON, Merge::Caustic),
+        with(paths, Merge::Scattered),
+        with(paths, Merge::All),
+        with(paths, Merge::First),
+        Techniques { nee: false, merge: Merge::FirstAll, ..paths },
+        Techniques { nee: false, ..vcm::ON },
+        Techniques { hit: false, ..vcm::ON },
+        Techniques { connect: false, ..vcm::ON },
+        Techniques { light_image: false, ..vcm::ON },
+    ]
+}
+
+/// Paths in each scene.
+const PATHS: u64 = 12_000;
+
+fn check(name: &str, lights: scenes::Lights) {
+    let scene = scenes::scene(lights);
+    let world = scene.world(Wavelengths::Rgb, MID_SHUTTER);
+    let radii = Radii::from_footprints(&scene, SPEC, &Limits::default(), 1, 4.0, 0.1);
+    let paths: Vec<Path> =
+        (0..PATHS).filter_map(|i| Path::draw(&world, &mut Sampler::new(5, Domain::Prepare, 0, i))).collect();
+    assert!(paths.len() > 300, "{name}: {} paths", paths.len());
+    for on in samplers() {
+        for heuristic in Heuristic::ALL {
+            let rule = Rule { on, heuristic, paths: 700.0, same_place: 0.02 };
+            let setting = Setting { world: &world, rule, radii: &radii, source: Source::plain() };
+            let (mut shared, mut most) = (0, 0);
+            for path in &paths {
+                let weights = setting.weights(path);
+                let sum: f32 = weights.iter().map(|w| w.1).sum();
+                let right = weights.is_empty() || (sum - 1.0).abs() < TOLERANCE;
+                assert!(right, "{name}, {rule:?}: {sum}, {weights:?}\n{}", path.letters());
+                shared += usize::from(weights.iter().filter(|w| w.1 > 0.01).count() > 1);
+                most = most.max(weights.len());
+            }
+            if on == vcm::ON {
+                assert!(shared > 100 && most > 8, "{name}: {shared} paths are shared, among {most} at most");
+            }
+        }
+    }
+}
+
+macro_rules! sums_to_one {
+    ($($test:ident: $lights:ident),* $(,)?) => {
+        $(#[test]
+        fn $test() {
+            check(stringify!($test), scenes::Lights::$lights);
+        })*
+    };
+}
+
+sums_to_one![
+    weights_sum_to_one_under_a_lamp: Lamp,
+    weights_sum_to_one_under_a_lamp_of_two_sides: TwoSided,
+    weights_sum_to_one_around_a_shining_ball: Ball,
+    weights_sum_to_one_around_a_point: Point,
+    weights_sum_to_one_in_a_spot: Spot,
+    weights_sum_to_one_in_parallel_light: Directional,
+    weights_sum_to_one_under_a_sky: Sky,
+    weights_sum_to_one_under_all_lights_through_a_lens: AllThroughLens,
+];
