@@ -1,7 +1,7 @@
 //! An algorithm's picture of a tiny scene as block means with variances.
 use sunfleck::{
     film::{FilmSpec, Filter, PassImage},
-    integrator::{Params, Pass, find},
+    integrator::{Entry, Params, Pass},
     scene::Scene,
     spectrum::ColorMode,
 };
@@ -46,30 +46,34 @@ impl Sums {
     }
 }
 
-pub(crate) fn estimate(scene: &Scene, name: &'static str, passes: u64) -> Estimate {
-    let entry = find(name).unwrap_or_else(|| panic!("no algorithm {name}"));
-    let mut params = Params::default();
-    for (key, value) in settings(name) {
-        params.set(*key, *value);
-    }
-    let integrator = entry.build(params).expect("settings of this file");
+/// Wavelengths and times are even over so many successive passes; taken one by one, passes would seem as different as their
+/// colours or moments.
+const EVEN: u64 = 16;
+
+pub(crate) fn estimate(scene: &Scene, entry: &Entry, passes: u64) -> Estimate {
+    let name = entry.name;
+    let integrator = entry.build(settings(entry)).expect("settings of this file");
     let spec = FilmSpec { width: SIZE, height: SIZE, filter: Filter::Box };
     // A seed of its own for each algorithm: shared noise must not pass for agreement.
     let seed = name.bytes().fold(17, |h: u64, b| h.wrapping_mul(31) + u64::from(b));
-    let prepared = integrator.prepare(scene, spec, seed);
+    let color = if scene.is_dispersive() { ColorMode::Spectral } else { ColorMode::Rgb };
+    // Passes that build on each other say nothing of the error of their mean; several renders do.
+    let size = if scene.is_dispersive() || scene.moves() || !entry.mergeable { EVEN } else { 1 };
+    let mut prepared = integrator.prepare(scene, spec, seed);
     let mut image = PassImage::new(spec);
     let mut blocks = vec![Sums::default(); BLOCKS_A_ROW * BLOCKS_A_ROW * 3];
     let mut picture = Sums::default();
-    let color = if scene.is_dispersive() { ColorMode::Spectral } else { ColorMode::Rgb };
-    // Wavelengths and times are even over successive passes; taken one by one, passes would seem as different as their
-    // colours or moments.
-    let size = if scene.is_dispersive() || scene.moves() { 16 } else { 1 };
     let mut group = vec![0.0; blocks.len()];
-    for index in 0..passes {
+    for number in 0..passes {
+        let render = if entry.mergeable { 0 } else { number / size };
+        if render > 0 && number % size == 0 {
+            prepared = integrator.prepare(scene, spec, seed + render);
+        }
         image.clear();
-        prepared.render_pass(&Pass::new(seed, index).colored(color), &mut image);
+        let pass = Pass::new(seed + render, number - render * size);
+        prepared.render_pass(&pass.colored(color), &mut image);
         group.iter_mut().zip(block_means(&image)).for_each(|(sum, m)| *sum += m / size as f64);
-        if (index + 1) % size == 0 {
+        if (number + 1) % size == 0 {
             blocks.iter_mut().zip(&group).for_each(|(s, m)| s.add(*m));
             picture.add(group.iter().sum::<f64>() / group.len() as f64);
             group.fill(0.0);
@@ -80,13 +84,15 @@ pub(crate) fn estimate(scene: &Scene, name: &'static str, passes: u64) -> Estima
 }
 
 /// Few pixels need more photons and smaller kernels than a whole picture would.
-fn settings(name: &str) -> &'static [(&'static str, &'static str)] {
-    match name {
-        "ppm" | "vcm" | "unified" => &[("photons", "4000"), ("radius", "0.05")],
-        "bdpt" => &[("photons", "1000")],
-        "photonmap" => &[("photons", "4000"), ("final-gather", "1"), ("radius", "0.05")],
-        _ => &[],
+fn settings(entry: &Entry) -> Params {
+    let photons = if entry.name == "bdpt" { "1000" } else { "4000" };
+    let mut params = Params::default();
+    for (key, value) in [("photons", photons), ("radius", "0.05"), ("final-gather", "1")] {
+        if entry.params.iter().any(|p| p.name == key) {
+            params.set(key, value);
+        }
     }
+    params
 }
 
 fn block_means(image: &PassImage) -> Vec<f64> {

@@ -17,45 +17,63 @@ use sunfleck::{
 
 pub(crate) struct TinyScene {
     pub(crate) name: &'static str,
-    /// Algorithms that reach all its light, and passes enough for each.
-    pub(crate) algorithms: &'static [(&'static str, u64)],
+    /// What is difficult, for the table in the book.
+    pub(crate) about: &'static str,
+    /// Algorithms that cannot find all its light.
+    pub(crate) blind: &'static [&'static str],
     pub(crate) build: fn() -> Scene,
 }
 
 /// Every algorithm sees everything.
-const ALL: &[(&str, u64)] =
-    &[("path", 400), ("light", 400), ("ppm", 150), ("photonmap", 150), ("bdpt", 400), ("vcm", 150), ("unified", 150)];
-/// Mirrors and glass before the camera: blind for `light`.
-const NOT_LIGHT: &[(&str, u64)] =
-    &[("path", 1600), ("ppm", 150), ("photonmap", 150), ("bdpt", 1600), ("vcm", 150), ("unified", 150)];
+const NONE: &[&str] = &[];
+/// Mirrors and glass before the camera.
+const LIGHT: &[&str] = &["light"];
+/// A caustic of a point light, seen through glass: no light can be met by chance, and nothing be connected.
+const ALL_BUT_PHOTONS: &[&str] = &["path", "light", "bdpt"];
+
+const fn tiny(
+    name: &'static str,
+    about: &'static str,
+    blind: &'static [&'static str],
+    build: fn() -> Scene,
+) -> TinyScene {
+    TinyScene { name, about, blind, build }
+}
 
 pub(crate) const SCENES: &[TinyScene] = &[
-    TinyScene { name: "diffuse_room", algorithms: ALL, build: diffuse_room },
-    TinyScene { name: "bumped_normals", algorithms: ALL, build: bumped_normals },
-    TinyScene { name: "point_light", algorithms: ALL, build: point_light },
-    TinyScene { name: "two_sided_light", algorithms: ALL, build: two_sided_light },
-    TinyScene { name: "caustic_of_a_glass_ball", algorithms: NOT_LIGHT, build: caustic_of_a_glass_ball },
-    TinyScene { name: "mirror_room", algorithms: NOT_LIGHT, build: mirror_room },
-    TinyScene { name: "instance", algorithms: ALL, build: instance },
-    TinyScene { name: "thin_lens", algorithms: ALL, build: thin_lens },
-    TinyScene { name: "mesh_light", algorithms: ALL, build: mesh_light },
-    TinyScene { name: "sphere_light", algorithms: ALL, build: sphere_light },
-    TinyScene { name: "spot_light", algorithms: ALL, build: spot_light },
-    TinyScene { name: "directional_light", algorithms: ALL, build: directional_light },
-    TinyScene { name: "environment_light", algorithms: ALL, build: environment_light },
-    TinyScene { name: "rough_glass", algorithms: ALL, build: rough_glass },
-    TinyScene { name: "rough_metal", algorithms: ALL, build: rough_metal },
-    TinyScene { name: "glossy_paint", algorithms: ALL, build: glossy_paint },
-    TinyScene { name: "textures", algorithms: ALL, build: textures },
-    TinyScene { name: "unlike_lights", algorithms: ALL, build: unlike_lights },
-    TinyScene { name: "an_eye_in_glass", algorithms: NOT_LIGHT, build: an_eye_in_glass },
-    TinyScene { name: "moving_instance", algorithms: ALL, build: moving::moving_instance },
-    TinyScene { name: "moving_light", algorithms: ALL, build: moving::moving_light },
-    TinyScene { name: "moving_camera", algorithms: ALL, build: moving::moving_camera },
-    TinyScene { name: "moving_thin_lens", algorithms: ALL, build: moving::moving_thin_lens },
-    TinyScene { name: "dispersive_ball", algorithms: NOT_LIGHT, build: dispersive_ball },
-    TinyScene { name: "dispersive_caustic", algorithms: ALL, build: dispersive_caustic },
-    TinyScene { name: "dispersive_rough_glass", algorithms: ALL, build: dispersive_rough_glass },
+    tiny("diffuse_room", "matt surfaces", NONE, diffuse_room),
+    tiny("bumped_normals", "shading normals far from the true ones", NONE, bumped_normals),
+    tiny("point_light", "a point light", NONE, point_light),
+    tiny("two_sided_light", "a lamp that shines both ways", NONE, two_sided_light),
+    tiny("caustic_of_a_glass_ball", "a caustic seen through the glass that makes it", LIGHT, caustic_of_a_glass_ball),
+    tiny(
+        "point_light_through_glass",
+        "a caustic of a point light, seen through glass",
+        ALL_BUT_PHOTONS,
+        point_light_through_glass,
+    ),
+    tiny("nested_glass", "water in a ball of glass, with a bubble of air", LIGHT, nested_glass),
+    tiny("mirror_room", "a mirror", LIGHT, mirror_room),
+    tiny("instance", "turned, stretched and mirrored copies", NONE, instance),
+    tiny("thin_lens", "depth of field", NONE, thin_lens),
+    tiny("mesh_light", "a lamp of unlike triangles", NONE, mesh_light),
+    tiny("sphere_light", "a shining ball", NONE, sphere_light),
+    tiny("spot_light", "a spot light", NONE, spot_light),
+    tiny("directional_light", "a light from infinity", NONE, directional_light),
+    tiny("environment_light", "a sky with a bright patch", NONE, environment_light),
+    tiny("rough_glass", "frosted glass", NONE, rough_glass),
+    tiny("rough_metal", "rough gold", NONE, rough_metal),
+    tiny("glossy_paint", "highlights on paint", NONE, glossy_paint),
+    tiny("textures", "a texture", NONE, textures),
+    tiny("unlike_lights", "lights of unlike power", NONE, unlike_lights),
+    tiny("an_eye_in_glass", "the eye in glass: η² of radiance", LIGHT, an_eye_in_glass),
+    tiny("moving_instance", "objects that move", NONE, moving::moving_instance),
+    tiny("moving_light", "a lamp that moves", NONE, moving::moving_light),
+    tiny("moving_camera", "an eye that moves", NONE, moving::moving_camera),
+    tiny("moving_thin_lens", "a lens that moves and is focused", NONE, moving::moving_thin_lens),
+    tiny("dispersive_ball", "dispersion seen through glass", LIGHT, dispersive_ball),
+    tiny("dispersive_caustic", "a caustic of many colours", NONE, dispersive_caustic),
+    tiny("dispersive_rough_glass", "dispersion in frosted glass", NONE, dispersive_rough_glass),
 ];
 
 /// A room 2 x 2 x 2 around the origin with an open front at z = 1, walls of three colours, and the eye before it.
@@ -165,6 +183,29 @@ fn caustic_of_a_glass_ball() -> Scene {
     let mut b = room();
     let glass = glass(&mut b);
     b.add(ball([0.1, -0.4, 0.1], 0.5), glass);
+    emit(&mut b, lamp(1.6, 0.95), Vec3::splat(3.0), Sides::One);
+    finish(b)
+}
+
+fn point_light_through_glass() -> Scene {
+    let mut b = room();
+    let glass = glass(&mut b);
+    b.add(ball([0.1, -0.4, 0.1], 0.5), glass);
+    b.light(PointLight { p: Vec3::new(0.2, 0.8, 0.2), intensity: Vec3::new(1.0, 0.8, 0.6).into() });
+    finish(b)
+}
+
+/// Boundaries between glass and water and between water and air: each has the ratio of its two sides.
+fn nested_glass() -> Scene {
+    let mut b = room();
+    let outer = glass(&mut b);
+    let [water, air] = [1.33 / 1.5, 1.0 / 1.33].map(|eta: f32| {
+        let inner = DielectricMaterial { eta: eta.into(), ..clear_glass(&mut b) };
+        b.material(inner)
+    });
+    b.add(ball([0.1, -0.3, 0.1], 0.6), outer);
+    b.add(ball([0.1, -0.3, 0.1], 0.5), water);
+    b.add(ball([0.2, -0.2, 0.2], 0.2), air);
     emit(&mut b, lamp(1.6, 0.95), Vec3::splat(3.0), Sides::One);
     finish(b)
 }
