@@ -109,6 +109,19 @@ impl Emitter for AreaLight {
         })
     }
     #[inline]
+    fn start_le(&self, u_area: Vec2) -> LightEnd {
+        LightEnd::Surface(self.shape.sample_area(u_area))
+    }
+    #[inline]
+    fn le_along(&self, start: &LightEnd, d: Vec3, around: &Surroundings) -> Option<LeSample> {
+        let LightEnd::Surface(q) = start else { return None };
+        let cos = self.emission_cos(q.ng, d);
+        let hit = EmitterHit { p: q.p, ng: q.ng };
+        let (pdf_area, pdf_dir) = self.pdf_le(Some(&hit), d, around);
+        let le = self.radiance.at(around.lambda);
+        (cos > 0.0).then(|| LeSample { ray: q.emit(d), le, pdf_area, pdf_dir, cos, origin: LeOrigin::Surface(hit) })
+    }
+    #[inline]
     fn pdf_le(&self, hit: Option<&EmitterHit>, d: Vec3, _: &Surroundings) -> (f32, f32) {
         let Some(hit) = hit else { return (0.0, 0.0) };
         let prob = if self.sides == Sides::Two { 0.5 } else { 1.0 };

@@ -49,14 +49,27 @@ impl Surroundings {
     /// A ray along the unit direction `d` that starts just outside the sphere, uniform over the disk across `d`.
     #[inline]
     pub fn ray_from_outside(&self, d: Vec3, u: Vec2) -> Ray {
-        let across = self.radius * square_to_disk(u);
-        let frame = Frame::from_normal(d);
-        let o = self.centre + across.x * frame.s + across.y * frame.t - 1.001 * self.radius * d;
+        let o = across(self.centre, self.radius, d, u) - 1.001 * self.radius * d;
+        Ray { o, d, tmin: 0.0, tmax: f32::INFINITY }
+    }
+    /// A ray along `d` that starts outside the sphere on the line through `p`.
+    #[inline]
+    pub fn ray_from_outside_through(&self, d: Vec3, p: Vec3) -> Ray {
+        // Back to the plane that touches the sphere.
+        let o = p - ((p - self.centre).dot(d) + 1.001 * self.radius) * d;
         Ray { o, d, tmin: 0.0, tmax: f32::INFINITY }
     }
 }
 
-/// Where a connection to a light ends; what a shadow ray needs to know.
+/// A point uniform over the disk of `radius` around `centre` across the unit direction `d`.
+#[inline]
+pub(crate) fn across(centre: Vec3, radius: f32, d: Vec3, u: Vec2) -> Vec3 {
+    let on_disk = radius * square_to_disk(u);
+    let frame = Frame::from_normal(d);
+    centre + on_disk.x * frame.s + on_disk.y * frame.t
+}
+
+/// Where a connection to a light ends, or a ray starts; what a shadow ray needs to know.
 #[derive(Clone, Copy, Debug)]
 pub enum LightEnd {
     /// On an emitting surface.
@@ -65,6 +78,18 @@ pub enum LightEnd {
     Point(Vec3),
     /// Outside the scene, in the direction `wi`.
     Infinite,
+}
+
+impl LightEnd {
+    /// Where it is, if it is somewhere.
+    #[inline]
+    pub fn place(&self) -> Option<Vec3> {
+        match self {
+            Self::Surface(q) => Some(q.p),
+            Self::Point(p) => Some(*p),
+            Self::Infinite => None,
+        }
+    }
 }
 
 /// A direction from which a light reaches a point.
@@ -141,6 +166,15 @@ pub trait Emitter {
     }
     /// Draws an emitted ray.
     fn sample_le(&self, u_area: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample>;
+    /// Draws where a ray starts, as [`Emitter::sample_le`] does.
+    fn start_le(&self, _u_area: Vec2) -> LightEnd {
+        LightEnd::Infinite
+    }
+    /// The ray that leaves `start` in the unit direction `d`, with the densities of [`Emitter::sample_le`]. `None` where
+    /// nothing is emitted, and for light from infinity, whose rays have no start of their own.
+    fn le_along(&self, _start: &LightEnd, _d: Vec3, _around: &Surroundings) -> Option<LeSample> {
+        None
+    }
     /// Densities `(pdf_area, pdf_dir)` with which [`Emitter::sample_le`] emits in direction `d` from `hit` (`None` for a
     /// light without a surface), in the convention of [`LeSample`]; zero where it never would.
     fn pdf_le(&self, hit: Option<&EmitterHit>, d: Vec3, around: &Surroundings) -> (f32, f32);
@@ -185,6 +219,14 @@ macro_rules! lights {
             #[inline]
             fn sample_le(&self, u_area: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample> {
                 match self { $(Self::$variant(l) => l.sample_le(u_area, u_dir, around)),* }
+            }
+            #[inline]
+            fn start_le(&self, u_area: Vec2) -> LightEnd {
+                match self { $(Self::$variant(l) => l.start_le(u_area)),* }
+            }
+            #[inline]
+            fn le_along(&self, start: &LightEnd, d: Vec3, around: &Surroundings) -> Option<LeSample> {
+                match self { $(Self::$variant(l) => l.le_along(start, d, around)),* }
             }
             #[inline]
             fn pdf_le(&self, hit: Option<&EmitterHit>, d: Vec3, around: &Surroundings) -> (f32, f32) {

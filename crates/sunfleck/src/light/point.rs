@@ -33,7 +33,15 @@ impl Emitter for PointLight {
     }
     #[inline]
     fn sample_le(&self, _: Vec2, u_dir: Vec2, around: &Surroundings) -> Option<LeSample> {
-        let ray = Ray { o: self.p, d: square_to_sphere(u_dir), tmin: 0.0, tmax: f32::INFINITY };
+        self.le_along(&LightEnd::Point(self.p), square_to_sphere(u_dir), around)
+    }
+    #[inline]
+    fn start_le(&self, _: Vec2) -> LightEnd {
+        LightEnd::Point(self.p)
+    }
+    #[inline]
+    fn le_along(&self, _: &LightEnd, d: Vec3, around: &Surroundings) -> Option<LeSample> {
+        let ray = Ray { o: self.p, d, tmin: 0.0, tmax: f32::INFINITY };
         let le = self.intensity.at(around.lambda);
         Some(LeSample { ray, le, pdf_area: 1.0, pdf_dir: 0.25 / PI, cos: 1.0, origin: LeOrigin::Point })
     }

@@ -183,6 +183,14 @@ impl Emitter for SpotLight {
         let sin = (v * (2.0 - v)).max(0.0).sqrt();
         let (sin_phi, cos_phi) = (TAU * u_dir.y).sin_cos();
         let d = self.axis.to_world(Local(Vec3::new(sin * cos_phi, sin * sin_phi, 1.0 - v)));
+        self.le_along(&LightEnd::Point(self.p), d, around)
+    }
+    #[inline]
+    fn start_le(&self, _: Vec2) -> LightEnd {
+        LightEnd::Point(self.p)
+    }
+    #[inline]
+    fn le_along(&self, _: &LightEnd, d: Vec3, around: &Surroundings) -> Option<LeSample> {
         let falloff = self.falloff(d);
         (falloff > 0.0).then(|| LeSample {
             ray: Ray { o: self.p, d, tmin: 0.0, tmax: f32::INFINITY },

@@ -9,12 +9,13 @@
 //!                        own walk ─ survey ─ radius: how far a gather reaches
 //! ```
 //!
-//! - [`source`]: chooses a light and starts a path of known flux and density;
+//! - [`source`]: chooses a light and starts a path of known flux and density; [`aim`]: learns where to send it;
 //! - [`deposit`]: which arrivals of a path are kept, and a [`Shower`] of many paths, the same for any number of threads;
 //! - [`map`]: photons beside an index of their positions, by radius or by number;
 //! - [`kernel`], [`gather`]: the density estimate;
 //! - [`mod@survey`], [`radii`], [`radius`]: what the camera sees of the scene, and from it the first radius and how it
 //!   shrinks.
+pub mod aim;
 pub mod deposit;
 pub mod gather;
 pub mod kernel;
@@ -24,6 +25,7 @@ pub mod radius;
 pub mod source;
 pub mod survey;
 
+pub use aim::Training;
 pub use deposit::{Catch, Keep, Photon, Shower};
 pub use gather::{CameraEnd, Disc, Gathered, NearestQuery, gather_counted, gather_nearest, gather_within};
 pub use kernel::Kernel;

@@ -1,18 +1,20 @@
 //! The start of a light path: which light, from where on it, in which direction, and how dense such starts are.
+use super::aim::{Mixture, Training};
 use crate::{
     bsdf::Transport,
+    film::FilmSpec,
     light::{Emitter, EmitterHit, LeSample, LightId},
     sampler::Sampler,
-    scene::World,
-    spectrum::Spectrum,
+    scene::{Scene, World},
     walk::Start,
 };
 use glam::Vec3;
 
-/// Where light paths start: a light in proportion to its power, a ray in proportion to what the light emits.
+/// Where light paths start: in proportion to power and to what each light emits, or aimed at what the camera needs.
 #[derive(Clone, Debug, Default)]
-#[non_exhaustive]
-pub struct Source {}
+pub struct Source {
+    aim: Option<Box<Mixture>>,
+}
 
 /// The start of one light path.
 #[derive(Clone, Copy, Debug)]
@@ -29,28 +31,50 @@ pub struct Emission {
     pub pdf: f32,
 }
 
+impl Emission {
+    /// A ray of `light`, which was chosen with probability `prob`. `None` if it carries nothing.
+    #[inline]
+    pub(super) fn new(light: LightId, prob: f32, le: LeSample) -> Option<Self> {
+        let beta = le.flux() / prob;
+        let start = Start { ray: le.ray, beta, mode: Transport::Flux, dispersed: false };
+        let pdf = prob * le.pdf_area * le.pdf_dir;
+        (beta.is_finite() && !beta.is_black()).then_some(Self { start, light, le, pdf })
+    }
+}
+
 impl Source {
     /// In proportion to power, and to what each light emits.
     pub fn plain() -> Self {
-        Self {}
+        Self::default()
+    }
+    /// Aimed at what the camera needs, where that helps. Trains for a fraction of a second.
+    pub fn aimed(scene: &Scene, spec: FilmSpec, training: &Training) -> Self {
+        Self { aim: training.train(scene, spec).map(Box::new) }
+    }
+    /// How it is aimed; `None` if it is plain.
+    pub fn aim(&self) -> Option<&Mixture> {
+        self.aim.as_deref()
     }
     /// Starts one light path. `None` if the scene has no light, or if the light emits nothing there; such a path counts as
     /// emitted. Draws one number and two pairs.
     #[inline]
     pub fn emit(&self, world: &World, sampler: &mut Sampler) -> Option<Emission> {
-        let (light, prob, _) = world.choose_light(sampler.next_1d())?;
-        let (u_area, u_dir) = (sampler.next_2d(), sampler.next_2d());
-        let le = world.light(light).sample_le(u_area, u_dir, world.around())?;
-        let beta: Spectrum = le.flux() / prob;
-        let start = Start { ray: le.ray, beta, mode: Transport::Flux, dispersed: false };
-        let pdf = prob * le.pdf_area * le.pdf_dir;
-        (beta.is_finite() && !beta.is_black()).then_some(Emission { start, light, le, pdf })
+        let (u, u_area, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
+        if let Some(mixture) = &self.aim {
+            let drawn = mixture.sample(world, u, u_area, u_dir)?;
+            return Emission::new(drawn.light, drawn.prob, drawn.le);
+        }
+        let (light, prob, _) = world.choose_light(u)?;
+        Emission::new(light, prob, world.light(light).sample_le(u_area, u_dir, world.around())?)
     }
     /// The density [`Emission::pdf`] with which [`Source::emit`] starts the ray that leaves `light` in the unit direction
     /// `d`: from `hit` if it has a surface, else from its place, or from infinity along the line through `through`. Zero
     /// where it never does.
     #[inline]
-    pub fn pdf(&self, world: &World, light: LightId, hit: Option<&EmitterHit>, _through: Vec3, d: Vec3) -> f32 {
+    pub fn pdf(&self, world: &World, light: LightId, hit: Option<&EmitterHit>, through: Vec3, d: Vec3) -> f32 {
+        if let Some(mixture) = &self.aim {
+            return mixture.pdf(world, light, hit, through, d);
+        }
         let (pdf_area, pdf_dir) = world.light(light).pdf_le(hit, d, world.around());
         world.light_prob(light) * pdf_area * pdf_dir
     }

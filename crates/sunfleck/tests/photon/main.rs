@@ -1,4 +1,5 @@
 //! Photons, their maps, and the pictures made with them.
+mod aim;
 mod maps;
 mod pictures;
 mod scenes;

@@ -28,7 +28,7 @@ use super::{Integrator, ParamError, ParamInfo, Params, Pass, PassRenderer, eye_r
 use crate::{
     camera::Project,
     film::{FilmSpec, PassImage},
-    photon::{Kernel, Radii, RadiusMap, Schedule, Source, pixel_angle},
+    photon::{Kernel, Radii, RadiusMap, Schedule, Source, Training, pixel_angle},
     scene::{MID_SHUTTER, Scene, World},
     spectrum::Wavelengths,
     walk::{Limits, walk, walk_evenly},
@@ -63,6 +63,8 @@ pub struct Engine {
     pub memory: u64,
     /// What weights compare.
     pub heuristic: Heuristic,
+    /// Whether light paths are sent to where the camera needs them, if a training finds that it helps.
+    pub aim: bool,
     /// Whether a training decides, for each part of the picture, what is merged there.
     pub planned: bool,
 }
@@ -73,7 +75,7 @@ const PIXELS: f32 = 4.0;
 const PATHS: std::ops::RangeInclusive<u64> = 1 << 14..=1 << 21;
 
 /// What every algorithm on the engine can be told.
-pub(super) const PARAMS: [ParamInfo; 7] = [
+pub(super) const PARAMS: [ParamInfo; 8] = [
     ParamInfo { name: "photons", about: "light paths a pass, 1 to 1e9 (default: by the size of the picture)" },
     ParamInfo { name: "radius", about: "first radius, world units > 0 (default: from what pixels cover)" },
     ParamInfo { name: "radius-scale", about: "first radius over that, 1e-6 to 1e6 (default 1)" },
@@ -82,6 +84,10 @@ pub(super) const PARAMS: [ParamInfo; 7] = [
     ParamInfo {
         name: "memory",
         about: "bytes that light vertices may take, 1e6 to 1e15; a pass of more is split (default 2e9)",
+    },
+    ParamInfo {
+        name: "aim",
+        about: "send light to where the camera needs it: on or off (default on where photons are gathered)",
     },
     ParamInfo { name: "heuristic", about: "what weights compare: balance or power (default balance)" },
 ];
@@ -99,6 +105,7 @@ impl Engine {
             kernel: Kernel::Epanechnikov,
             memory: 2_000_000_000,
             heuristic: Heuristic::default(),
+            aim: on.merge.is_on(),
             planned: false,
         }
     }
@@ -115,9 +122,18 @@ impl Engine {
             schedule: Schedule { alpha: p.number("alpha", d.schedule.alpha, 0.01..=1.0)? },
             kernel: Kernel::ALL[p.word("kernel", d.kernel as usize, &Kernel::WORDS)?],
             memory: p.count("memory", d.memory, 1_000_000..=1_000_000_000_000_000)?,
+            aim: p.switch("aim", d.aim)?,
             heuristic: Heuristic::ALL[p.word("heuristic", d.heuristic as usize, &Heuristic::WORDS)?],
             ..d
         })
+    }
+}
+
+impl Engine {
+    fn source(&self, scene: &Scene, spec: FilmSpec, seed: u64) -> Source {
+        let training = Training { seed, limits: self.limits, direct: self.on.merge.of_direct() };
+        let aim = self.aim && self.on.need_light_paths();
+        if aim { Source::aimed(scene, spec, &training) } else { Source::plain() }
     }
 }
 
@@ -136,7 +152,7 @@ impl Integrator for Engine {
             scene,
             engine: self,
             radii: self.radius.map_or(seen, Radii::fixed).scaled(self.radius_scale),
-            source: Source::plain(),
+            source: self.source(scene, spec, seed),
             paths: if self.on.need_light_paths() { paths } else { 0 },
             parts: 1,
             same_place: std::f32::consts::PI * degree * degree,
