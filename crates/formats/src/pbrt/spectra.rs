@@ -95,10 +95,13 @@ impl Importer<'_> {
 
     /// The index of refraction that a parameter gives.
     pub(super) fn index(&mut self, param: &Param) -> Found<Ior> {
-        let known = param.strings().and_then(|names| named(names.first()?)?.ior());
-        match known {
-            Some(ior) => Ok(ior),
-            None => Ok(Ior::Constant(self.colour(param, Role::Index)?.rgb().y)),
+        match (param.kind.as_str(), &param.values) {
+            ("spectrum", Values::Strings(names)) if names.len() == 1 => Ok(match self.by_name(&names[0], param)? {
+                ByName::Known(known) => known.ior().unwrap_or_else(|| Ior::Constant(known.curve().channels().y)),
+                ByName::File(curve) => Ior::fitted(&curve),
+            }),
+            ("spectrum", Values::Numbers(pairs)) if pairs.len() > 1 => Ok(Ior::fitted(&curve_of(pairs, param)?)),
+            _ => Ok(Ior::Constant(self.colour(param, Role::Index)?.rgb().y)),
         }
     }
 }
