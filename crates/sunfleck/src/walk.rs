@@ -80,6 +80,8 @@ pub trait Visit {
     fn surface(&mut self, arrival: &Arrival, sampler: &mut Sampler) -> Step;
     /// The walk goes on from `at`, where it was last seen: roulette spared it.
     fn scatter(&mut self, _at: &Interaction, _s: &Scattered) {}
+    /// Roulette ended the walk where it was last seen; `next` is what it would have carried on.
+    fn roulette(&mut self, _next: Spectrum) {}
     /// The walk left the scene, and ends.
     fn escape(&mut self, _: &Escape) {}
 }
@@ -169,6 +171,7 @@ fn walk_by<const EVENLY: bool>(
         };
         if survive < 1.0 {
             if sampler.next_1d() >= survive {
+                visitor.roulette(next);
                 break;
             }
             beta = next / survive;

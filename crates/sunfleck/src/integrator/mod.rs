@@ -24,6 +24,7 @@ pub use raycast::RayCast;
 
 use crate::{
     film::PassImage,
+    photon::Audit,
     sampler::{Domain, Sampler},
     scene::Scene,
     spectrum::{ColorMode, Wavelengths},
@@ -79,6 +80,10 @@ pub trait PassRenderer: Sync {
     /// Adds what one of [`PassRenderer::techniques`] alone finds in the pass: as it counts in the picture if `weighted`, else
     /// as if it were the only sampler, which is the whole of the light that it can find.
     fn render_technique(&self, _pass: &Pass, _technique: Technique, _weighted: bool, _image: &mut PassImage) {}
+    /// How it sends and keeps photons, so that books can be kept of `paths` of them; `None` if it sends none, or does not say.
+    fn audit(&self, _seed: u64, _paths: u64) -> Option<Audit> {
+        None
+    }
 }
 
 /// Name, purpose and maker of an algorithm.

@@ -32,17 +32,20 @@ pub enum Keep {
     Scattered,
     /// What came through delta scatterings only, and at least one: `L S⁺`. Paths end where they first scatter otherwise.
     Caustic,
+    /// What was scattered last by a delta lobe: `L (S|D)* S`.
+    LastDelta,
     /// What was scattered by some lobe with a density: `L S* D (S|D)*`.
     Indirect,
 }
 
 impl Keep {
     #[inline]
-    fn keeps(self, a: &Arrival) -> bool {
+    pub(super) fn keeps(self, a: &Arrival) -> bool {
         match self {
             Self::All => true,
             Self::Scattered => a.scatterings > 0,
             Self::Caustic => a.scatterings > 0 && a.all_delta,
+            Self::LastDelta => a.scatterings > 0 && a.delta,
             Self::Indirect => !a.all_delta,
         }
     }

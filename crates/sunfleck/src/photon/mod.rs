@@ -13,12 +13,14 @@
 //! - [`deposit`]: which arrivals of a path are kept, and a [`Shower`] of many paths, the same for any number of threads;
 //! - [`map`]: photons beside an index of their positions, by radius or by number;
 //! - [`kernel`], [`gather`]: the density estimate;
+//! - [`ledger`]: what becomes of the light of each lamp, and how much of it any gather reaches;
 //! - [`mod@survey`], [`radii`], [`radius`]: what the camera sees of the scene, and from it the first radius and how it
 //!   shrinks.
 pub mod aim;
 pub mod deposit;
 pub mod gather;
 pub mod kernel;
+pub mod ledger;
 pub mod map;
 pub mod radii;
 pub mod radius;
@@ -29,6 +31,7 @@ pub use aim::Training;
 pub use deposit::{Catch, Keep, Photon, Shower};
 pub use gather::{CameraEnd, Disc, Gathered, NearestQuery, gather_counted, gather_nearest, gather_within};
 pub use kernel::Kernel;
+pub use ledger::{Account, Amount, Audit, Ledger};
 pub use map::{NearestMap, RadiusMap};
 pub use radii::Radii;
 pub use radius::{Reach, Schedule};

@@ -28,7 +28,7 @@ use super::{Integrator, ParamError, ParamInfo, Params, Pass, PassRenderer, eye_r
 use crate::{
     camera::Project,
     film::{FilmSpec, PassImage},
-    photon::{Kernel, Radii, RadiusMap, Schedule, Source, Training, pixel_angle},
+    photon::{Audit, Kernel, Radii, RadiusMap, Schedule, Source, Training, pixel_angle},
     scene::{MID_SHUTTER, Scene, World},
     spectrum::Wavelengths,
     walk::{Limits, walk, walk_evenly},
@@ -192,6 +192,11 @@ impl PassRenderer for Prepared<'_> {
     }
     fn render_technique(&self, pass: &Pass, technique: Technique, weighted: bool, image: &mut PassImage) {
         self.render_parts(pass, Some(Only { technique, weighted }), image);
+    }
+    fn audit(&self, seed: u64, paths: u64) -> Option<Audit> {
+        let keep = self.plan.as_ref().map_or(self.engine.on.merge, Plan::needs).keeps();
+        let (source, radii, limits) = (self.source.clone(), self.radii.clone(), self.engine.limits);
+        (self.paths > 0).then_some(Audit { source, keep, radii, limits, seed, paths })
     }
 }
 

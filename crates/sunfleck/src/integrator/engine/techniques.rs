@@ -1,4 +1,5 @@
 //! Which samplers are on, and how their densities are compared.
+use crate::photon::Keep;
 
 /// The five samplers of light transport. A path is shared among exactly those that are on.
 #[expect(clippy::struct_excessive_bools, reason = "a switch for each sampler")]
@@ -52,6 +53,14 @@ impl Merge {
             Self::All | Self::FirstAll => true,
             Self::Scattered | Self::First => scatterings > 0,
             Self::Caustic => scatterings > 0 && delta,
+        }
+    }
+    /// Which arrivals of light paths are kept: as [`Merge::takes`], and all of them, for connections, if nothing is gathered.
+    pub(super) fn keeps(self) -> Keep {
+        match self {
+            Self::Off | Self::All | Self::FirstAll => Keep::All,
+            Self::Scattered | Self::First => Keep::Scattered,
+            Self::Caustic => Keep::LastDelta,
         }
     }
     /// Whether camera paths end where they gather first.
