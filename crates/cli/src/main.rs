@@ -16,6 +16,7 @@ mod failure;
 mod info;
 mod list;
 mod load;
+mod machine;
 mod render;
 mod table;
 mod words;

@@ -24,6 +24,15 @@ pub(crate) fn count(n: f64) -> String {
     format!("{scaled:.decimals$}{prefix}")
 }
 
+/// A measured quantity with three digits: `0.0123`, `1.23`, `123`, `1.23e9`.
+pub(crate) fn quantity(x: f64) -> String {
+    match x.abs() {
+        0.0 => "0".to_owned(),
+        a @ 1e-3..1e5 => format!("{x:.*}", (2 - a.log10().floor() as i32).max(0) as usize),
+        _ => format!("{x:.2e}"),
+    }
+}
+
 /// A number of things: `1 pass`, `3 passes`.
 pub(crate) fn things(n: u64, one: &str, many: &str) -> String {
     format!("{} {}", count(n as f64), if n == 1 { one } else { many })
@@ -39,6 +48,8 @@ mod tests {
         assert_eq!(times, ["0.43s", "12.3s", "2m 05s", "1h 02m"]);
         let counts = [0.0, 999.0, 9999.0, 12_345.0, 1.234e8, 5e9].map(count);
         assert_eq!(counts, ["0", "999", "9999", "12.3k", "123M", "5.00G"]);
+        let quantities = [0.0, 0.012_34, 1.234, 99.99, 12_345.6, 5e9, -2.5].map(quantity);
+        assert_eq!(quantities, ["0", "0.0123", "1.23", "100.0", "12346", "5.00e9", "-2.50"]);
         assert_eq!((things(1, "pass", "passes"), things(2, "pass", "passes")), ("1 pass".into(), "2 passes".into()));
     }
 }

@@ -1,16 +1,16 @@
 //! Which algorithm, with which settings.
-use super::values::{key_value, scatterings};
+use super::values::{bytes, key_value, scatterings};
 use clap::{Args, builder::PossibleValuesParser};
 use sunfleck::integrator::REGISTRY;
 
 /// What `render` uses when nothing is said.
-pub(crate) const DEFAULT_INTEGRATOR: &str = "ppm";
+pub(crate) const DEFAULT_INTEGRATOR: &str = "unified";
 
 /// The algorithm. Shorthands are settings under a flag of their own; an algorithm without them says so.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Algorithm")]
 pub(crate) struct AlgorithmArgs {
-    /// Algorithm; `sunfleck list integrators` tells what each is for [default: ppm]
+    /// Algorithm; `sunfleck list integrators` tells what each is for [default: unified]
     #[arg(long, value_name = "NAME", hide_possible_values = true,
         value_parser = PossibleValuesParser::new(REGISTRY.iter().map(|e| e.name)))]
     pub(crate) integrator: Option<String>,
@@ -33,6 +33,15 @@ pub(crate) struct AlgorithmArgs {
     /// Radius within which photons count: short for `--set radius=…`
     #[arg(long, value_name = "R")]
     pub(crate) radius: Option<String>,
+    /// How the radius shrinks from pass to pass: short for `--set alpha=…`
+    #[arg(long, value_name = "A")]
+    pub(crate) alpha: Option<String>,
+    /// Memory for what light paths leave behind, such as 512MiB or 2GB [default: a quarter of the machine's]
+    ///
+    /// Where it is too little for a pass, the pass is split into parts, one after the other. Short for
+    /// `--set memory=…`, which counts bytes.
+    #[arg(long, value_name = "SIZE", value_parser = bytes)]
+    pub(crate) memory: Option<u64>,
     /// Final gathering: short for `--set final-gather=…`
     #[arg(long, value_name = "VALUE")]
     pub(crate) final_gather: Option<String>,

@@ -21,6 +21,13 @@ pub(crate) struct OutputArgs {
     /// Print JSON to standard output: one object at the end, or with `--json=lines` also one per pass
     #[arg(long, value_name = "STYLE", num_args = 0..=1, require_equals = true, default_missing_value = "object")]
     pub(crate) json: Option<JsonStyle>,
+    /// Afterwards, show each sampler of the algorithm alone, and tell what becomes of the light of each lamp
+    ///
+    /// Beside the first picture, NAME.explain.exr has a layer for each sampler, as it counts in the picture and as if it
+    /// were the only one; if the first picture is no .exr, they are pictures of its kind, NAME.explain-SAMPLER. Takes as
+    /// long as 16 passes for each sampler, less if there were fewer than 8 passes.
+    #[arg(long)]
+    pub(crate) explain: bool,
     /// Say nothing but errors
     #[arg(short, long)]
     pub(crate) quiet: bool,

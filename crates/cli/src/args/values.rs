@@ -107,6 +107,20 @@ pub(crate) fn duration(text: &str) -> Result<Duration, String> {
         .ok_or_else(|| "expected a time with its unit, more than 0 and at most a year, such as 30s, 5m or 1h30m".into())
 }
 
+/// A size in memory, in bytes: `2GiB` is 2 · 1024³, `2GB` and `2G` are 2 · 1000³.
+pub(crate) fn bytes(text: &str) -> Result<u64, String> {
+    let text = text.trim();
+    let (digits, unit) = text.split_at(text.find(|c: char| c.is_ascii_alphabetic()).unwrap_or(text.len()));
+    let unit = unit.to_ascii_lowercase();
+    let base: f64 = if unit.ends_with("ib") { 1024.0 } else { 1000.0 };
+    let power = ["", "k", "m", "g", "t"]
+        .iter()
+        .position(|p| [(*p).to_owned(), format!("{p}b"), format!("{p}ib")].contains(&unit));
+    let size = power.and_then(|n| Some(digits.trim().parse::<f64>().ok()? * base.powi(n as i32)));
+    let size = size.filter(|s| (1.0..=1e15).contains(s)).map(|s| s as u64);
+    size.ok_or_else(|| "expected a size with its unit, such as 512MiB or 2GB".to_owned())
+}
+
 /// A setting and its value.
 pub(crate) fn key_value(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
@@ -143,6 +157,15 @@ mod tests {
         assert_eq!((percent("2%"), percent("2")), (Ok(0.02), Ok(0.02)));
         assert_eq!(duration("1h30m"), Ok(Duration::from_secs(5400)));
         assert!(duration("30").is_err() && duration("0s").is_err() && duration("9999y").is_err());
+    }
+
+    #[test]
+    fn sizes_in_memory_have_decimal_and_binary_units() {
+        let sizes = ["2GiB", "2GB", "1.5 k", "4096", "1mib", "7B"].map(|s| bytes(s).unwrap());
+        assert_eq!(sizes, [2 << 30, 2_000_000_000, 1500, 4096, 1 << 20, 7]);
+        for bad in ["", "GiB", "0", "-1GB", "1XB", "1e99", "nan", "1GiBs", "ib"] {
+            assert!(bytes(bad).is_err(), "{bad}");
+        }
     }
 
     #[test]

@@ -1,5 +1,5 @@
 //! From flags to an integrator.
-use crate::{args::AlgorithmArgs, compat::Habits, failure::Failure};
+use crate::{args::AlgorithmArgs, compat::Habits, failure::Failure, machine};
 use formats::load::Hints;
 use std::collections::BTreeMap;
 use sunfleck::integrator::{Entry, Integrator, Params, find};
@@ -18,6 +18,10 @@ impl Algorithm {
         let mut settings = settings(args, habits).map_err(Failure::input)?;
         add_hints(&mut settings, args, entry, hints);
         let mut params = Params::default();
+        if entry.settings().any(|p| p.name == "memory") {
+            // Not among the settings that are told: it is the machine's, and where it is enough, nothing depends on it.
+            params.set("memory", (machine::memory() / 4).to_string());
+        }
         settings.iter().for_each(|(key, value)| params.set(key, value));
         let made = entry.build(params).map_err(|e| Failure::input(e.to_string()))?;
         Ok(Self { name: entry.name, settings, made })
@@ -25,6 +29,10 @@ impl Algorithm {
     /// Its word.
     pub(super) fn name(&self) -> &'static str {
         self.name
+    }
+    /// Whether it has a setting called `name`.
+    pub(super) fn has(&self, name: &str) -> bool {
+        find(self.name).is_some_and(|e| e.settings().any(|p| p.name == name))
     }
     /// Settings that differ from the integrator's own defaults, or may.
     pub(super) fn settings(&self) -> &BTreeMap<String, String> {
@@ -60,12 +68,14 @@ fn add_hints(settings: &mut BTreeMap<String, String>, args: &AlgorithmArgs, entr
 /// All settings by name. One said twice in different words is a mistake, not an order of precedence.
 fn settings(args: &AlgorithmArgs, habits: &Habits) -> Result<BTreeMap<String, String>, String> {
     let short = [
-        ("photons", &args.photons),
-        ("nearest", &args.nearest),
-        ("radius", &args.radius),
-        ("final-gather", &args.final_gather),
+        ("photons", args.photons.clone()),
+        ("nearest", args.nearest.clone()),
+        ("radius", args.radius.clone()),
+        ("alpha", args.alpha.clone()),
+        ("memory", args.memory.map(|n| n.to_string())),
+        ("final-gather", args.final_gather.clone()),
     ];
-    let shorthands = short.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value.clone()?)));
+    let shorthands = short.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?)));
     let mut all = BTreeMap::new();
     for (key, value) in shorthands.chain(args.settings.iter().cloned()) {
         if all.insert(key.clone(), value).is_some() {

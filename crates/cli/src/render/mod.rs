@@ -1,8 +1,9 @@
 //! `sunfleck render`: check everything that can be checked, load, render, write, tell.
 //!
 //! [`algorithm`] builds the integrator, [`outputs`] checks and writes files, [`interrupt`] listens to Ctrl-C, [`show`] and
-//! [`record`] tell people and programs how it goes.
+//! [`record`] tell people and programs how it goes, [`explain`] takes the picture apart.
 mod algorithm;
+mod explain;
 mod interrupt;
 mod outputs;
 mod record;
@@ -49,17 +50,24 @@ pub(crate) fn run(args: &RenderArgs) -> Result<(), Failure> {
         job.loaded.say_warnings();
         console::say(summary::before(&job, &outputs));
     }
-    finish(&job, &outputs, job.passes(&interrupt))
+    finish(&job, &outputs, job.passes(&interrupt), &interrupt)
 }
 
 /// Writes, then tells: a picture is worth more than a message that did not arrive.
-fn finish(job: &Job, outputs: &Outputs, done: Done) -> Result<(), Failure> {
-    let written = outputs.write(&done.film, job.loaded.defaults.tone, &record::metadata(job, &done.film));
+fn finish(job: &Job, outputs: &Outputs, done: Done, interrupt: &Interrupt) -> Result<(), Failure> {
+    let (tone, metadata) = (job.loaded.defaults.tone, record::metadata(job, &done.film));
+    let mut written = outputs.write(&done.film, tone, &metadata);
     let output = &job.args.output;
+    let explained = if output.explain { explain::explain(job, &done, interrupt) } else { None };
+    if let Some((_, Some(pictures))) = &explained {
+        written.extend(outputs.write_apart(pictures, tone, &metadata));
+    }
+    let explanation = explained.as_ref().map(|(words, _)| words);
     let wants_json = output.json.is_some() && done.told.is_ok();
-    let told = if wants_json { console::print_json(&Record::new(job, &done, &written)) } else { Ok(()) };
+    let told = if wants_json { console::print_json(&Record::new(job, &done, &written, explanation)) } else { Ok(()) };
     if !output.quiet {
         console::say(summary::after(&done, &written));
+        explanation.iter().for_each(|e| console::say(e.text().trim_end()));
     }
     outputs::failures(written)?;
     done.told.and(told)?;

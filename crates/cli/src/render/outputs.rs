@@ -1,4 +1,5 @@
 //! Pictures to write: checked before the work, written after it.
+use super::explain::Pictures;
 use crate::{args::OutputArgs, console, destination, failure::Failure};
 use formats::diagnostic::Error as SceneError;
 use formats::image::{ImageFile, ImageFormat, RgbImage32, Tone, write_image};
@@ -66,6 +67,25 @@ impl Outputs {
         let linear = RgbImage32 { width: spec.width, height: spec.height, data };
         let file = ImageFile { image: linear, layers: Vec::new(), metadata: metadata.to_vec() };
         self.files.iter().map(|output| self.write_one(output, &file, self.tone.unwrap_or(tone))).collect()
+    }
+
+    /// Writes each sampler beside the first file: as layers where a file can have them, else as files of its kind.
+    pub(super) fn write_apart(&self, apart: &Pictures, tone: Tone, metadata: &[(String, String)]) -> Vec<Written> {
+        let Some((path, format)) = self.files.first() else { return Vec::new() };
+        let tone = self.tone.unwrap_or(tone);
+        let beside = |name: &str| {
+            let extension = path.extension().map(|e| e.to_string_lossy().into_owned()).unwrap_or_default();
+            (path.with_extension(format!("{name}.{extension}")), *format)
+        };
+        if format.extensions.contains(&"exr") {
+            let (image, layers) = (apart.sum.clone(), apart.layers.clone());
+            let file = ImageFile { image, layers, metadata: metadata.to_vec() };
+            return vec![self.write_one(&beside("explain"), &file, tone)];
+        }
+        let one = |(name, image): &(String, RgbImage32)| {
+            self.write_one(&beside(&format!("explain-{name}")), &image.clone().into(), tone)
+        };
+        apart.layers.iter().map(one).collect()
     }
 
     fn write_one(&self, (path, format): &(PathBuf, &'static ImageFormat), linear: &ImageFile, tone: Tone) -> Written {

@@ -1,5 +1,5 @@
 //! What programs read: JSON on standard output, and metadata inside EXR files.
-use super::{Done, Job, outputs::Written};
+use super::{Done, Job, explain::Explanation, outputs::Written};
 use crate::load::{Eye, SceneRecord, Warning};
 use glam::DVec3;
 use serde::Serialize;
@@ -50,6 +50,9 @@ pub(super) struct Record<'a> {
     mean: [f64; 3],
     outputs: &'a [Written],
     warnings: Vec<Warning>,
+    /// With `--explain`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    explain: Option<&'a Explanation>,
 }
 
 /// What was done in which time.
@@ -97,7 +100,7 @@ pub(super) fn pass(p: &Progress) -> PassRecord {
 }
 
 impl<'a> Record<'a> {
-    pub(super) fn new(job: &'a Job, done: &Done, outputs: &'a [Written]) -> Self {
+    pub(super) fn new(job: &'a Job, done: &Done, outputs: &'a [Written], explain: Option<&'a Explanation>) -> Self {
         let spec = job.settings.spec;
         Self {
             event: "done",
@@ -116,6 +119,7 @@ impl<'a> Record<'a> {
             mean: mean(&done.film),
             outputs,
             warnings: job.loaded.warnings().collect(),
+            explain,
         }
     }
 }
