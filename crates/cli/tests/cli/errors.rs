@@ -75,6 +75,8 @@ fn values_out_of_range_are_answered_with_the_range() {
         ("--threads 0", "a whole number from 1 to 1024"),
         ("--exposure 99", "from -32 to 32"),
         ("--set photons", "KEY=VALUE"),
+        ("--memory 5 --passes 1", "memory=5 is not a whole number"),
+        ("--memory 2XB", "such as 512MiB"),
         ("--seed -1", "a whole number from 0 to"),
         ("--compat nrenderer --depth 0", "1 or more"),
         ("--camera-position 0,0,0", "cannot look at"),

@@ -1,6 +1,7 @@
 //! Runs the built program as a user would.
 mod diff;
 mod errors;
+mod explain;
 mod help;
 mod render;
 #[cfg(unix)]
