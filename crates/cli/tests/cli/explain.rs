@@ -16,7 +16,7 @@ fn samplers_become_layers_that_add_up_to_the_picture_and_to_the_whole() {
         .run(&format!("render ball.scn {SMALL} -o a.exr -o a.png --integrator vcm --explain --json"))
         .json()
         .remove(0);
-    assert_eq!(place.files(), ["a.exr", "a.explain.exr", "a.png", "ball.scn"]);
+    assert_eq!(place.files(), ["a.explain.exr", "a.exr", "a.png", "ball.scn"]);
     let (picture, apart) = (place.image("a.exr"), place.image("a.explain.exr"));
     let layers: Vec<&str> = apart.layers.iter().map(|(name, _)| name.as_str()).collect();
     for name in ["hit", "nee", "light-image", "connect", "merge"] {
@@ -60,7 +60,7 @@ fn without_layers_samplers_are_pictures_of_the_same_kind() {
 fn books_balance_and_are_the_same_on_any_number_of_threads() {
     let place = Workplace::new();
     let books = |threads: u32| {
-        let args = format!("render ball.scn {SMALL} -q -o a.png --integrator ppm --explain --json --threads {threads}");
+        let args = format!("render ball.scn {SMALL} -q -o a.png --integrator bdpt --explain --json --threads {threads}");
         place.run(&args).json().remove(0)["explain"].clone()
     };
     let explain = books(1);
@@ -115,7 +115,7 @@ V 0 0 1
 End
 ";
     place.write("two.scn", format!("{SCENE}{far}"));
-    let ran = place.run(&format!("render two.scn {SMALL} -o a.png --integrator ppm --set direct=photons --explain"));
+    let ran = place.run(&format!("render two.scn {SMALL} -o a.png --integrator bdpt --explain"));
     assert!(ran.err.contains("100.0 % of the photons of light `area 2` never reach a visible kernel"), "{}", ran.err);
     assert!(!ran.err.contains("of light `area 1` never"), "{}", ran.err);
     let ran = place.run(&format!("render ball.scn {SMALL} -o a.png --integrator ppm --depth 2 --explain"));
