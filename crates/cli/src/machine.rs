@@ -8,7 +8,7 @@ pub(crate) fn memory() -> u64 {
     std::fs::read_to_string("/proc/meminfo").ok().as_deref().and_then(total).unwrap_or(USUAL)
 }
 
-/// The line `MemTotal:` of Linux's `/proc/meminfo`, which counts units of 1024 bytes (proc_meminfo(5)).
+/// The line `MemTotal:` of Linux's `/proc/meminfo`, which counts units of 1024 bytes (`proc_meminfo(5)`).
 fn total(text: &str) -> Option<u64> {
     let line = text.lines().find_map(|l| l.strip_prefix("MemTotal:"))?;
     let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;

@@ -67,7 +67,11 @@ fn finish(job: &Job, outputs: &Outputs, done: Done, interrupt: &Interrupt) -> Re
     let told = if wants_json { console::print_json(&Record::new(job, &done, &written, explanation)) } else { Ok(()) };
     if !output.quiet {
         console::say(summary::after(&done, &written));
-        explanation.iter().for_each(|e| console::say(e.text().trim_end()));
+        match explanation {
+            Some(e) => console::say(e.text().trim_end()),
+            None if output.explain => console::say("interrupted: the picture is not explained"),
+            None => {}
+        }
     }
     outputs::failures(written)?;
     done.told.and(told)?;

@@ -60,7 +60,8 @@ fn without_layers_samplers_are_pictures_of_the_same_kind() {
 fn books_balance_and_are_the_same_on_any_number_of_threads() {
     let place = Workplace::new();
     let books = |threads: u32| {
-        let args = format!("render ball.scn {SMALL} -q -o a.png --integrator bdpt --explain --json --threads {threads}");
+        let args =
+            format!("render ball.scn {SMALL} -q -o a.png --integrator bdpt --explain --json --threads {threads}");
         place.run(&args).json().remove(0)["explain"].clone()
     };
     let explain = books(1);

@@ -6,7 +6,7 @@ mod samplers;
 use super::{Done, Job, interrupt::Interrupt};
 use books::Books;
 use formats::image::RgbImage32;
-use samplers::Share;
+use samplers::Shown;
 use serde::Serialize;
 
 /// What is told, to people and to programs.
@@ -15,7 +15,7 @@ pub(super) struct Explanation {
     /// Passes in which each sampler was shown.
     passes: u64,
     /// Samplers of the algorithm; none if it cannot show them apart.
-    samplers: Vec<Share>,
+    samplers: Vec<Shown>,
     /// Books of the light; none if no light path was sent.
     books: Option<Books>,
     /// What could be better.

@@ -12,7 +12,7 @@ use sunfleck::{
 
 /// What one sampler brings.
 #[derive(Debug, Serialize)]
-pub(super) struct Share {
+pub(super) struct Shown {
     name: &'static str,
     /// Its part of the picture's mean, 0 to 1.
     share: f64,
@@ -28,7 +28,7 @@ pub(super) fn show(
     settings: &Settings,
     passes: u64,
     interrupt: &Interrupt,
-) -> Option<(Vec<Share>, Pictures)> {
+) -> Option<(Vec<Shown>, Pictures)> {
     let spec = settings.spec;
     let mut pictures = Pictures { sum: RgbImage32::filled(spec.width, spec.height, [0.0; 3]), layers: Vec::new() };
     let mut shares = Vec::new();
@@ -42,10 +42,10 @@ pub(super) fn show(
             .zip(&weighted.data)
             .for_each(|(s, v)| *s = (Vec3::from(*s) + Vec3::from(*v)).into());
         let name = technique.name();
-        shares.push(Share { name, share: 0.0, mean: mean(&weighted), mean_unweighted: mean(&unweighted) });
+        shares.push(Shown { name, share: 0.0, mean: mean(&weighted), mean_unweighted: mean(&unweighted) });
         pictures.layers.extend([(name.to_owned(), weighted), (format!("{name}-unweighted"), unweighted)]);
     }
-    let sum = |s: &Share| s.mean.iter().sum::<f64>();
+    let sum = |s: &Shown| s.mean.iter().sum::<f64>();
     let total: f64 = shares.iter().map(sum).sum();
     shares.iter_mut().for_each(|s| s.share = if total > 0.0 { sum(s) / total } else { 0.0 });
     Some((shares, pictures))
@@ -79,7 +79,7 @@ fn mean(image: &RgbImage32) -> [f64; 3] {
 }
 
 /// For people.
-pub(super) fn table(shares: &[Share]) -> String {
+pub(super) fn table(shares: &[Shown]) -> String {
     let whole: f64 = shares.iter().flat_map(|s| s.mean).sum();
     let percent = |part: f64| if whole > 0.0 { format!("{:.1} %", 100.0 * part / whole) } else { "–".to_owned() };
     let mut rows = vec![["sampler", "of the picture", "alone", "what it is"].map(str::to_owned)];
