@@ -36,6 +36,9 @@ pub(crate) struct AlgorithmArgs {
     /// How the radius shrinks from pass to pass: short for `--set alpha=…`
     #[arg(long, value_name = "A")]
     pub(crate) alpha: Option<String>,
+    /// Whether light is sent to where the camera needs it: short for `--set aim=…`
+    #[arg(long, value_name = "on|off")]
+    pub(crate) aim: Option<String>,
     /// Memory for what light paths leave behind, such as 512MiB or 2GB [default: a quarter of the machine's]
     ///
     /// Where it is too little for a pass, the pass is split into parts, one after the other. Short for

@@ -72,6 +72,7 @@ fn settings(args: &AlgorithmArgs, habits: &Habits) -> Result<BTreeMap<String, St
         ("nearest", args.nearest.clone()),
         ("radius", args.radius.clone()),
         ("alpha", args.alpha.clone()),
+        ("aim", args.aim.clone()),
         ("memory", args.memory.map(|n| n.to_string())),
         ("final-gather", args.final_gather.clone()),
     ];

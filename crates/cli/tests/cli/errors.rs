@@ -76,6 +76,7 @@ fn values_out_of_range_are_answered_with_the_range() {
         ("--exposure 99", "from -32 to 32"),
         ("--set photons", "KEY=VALUE"),
         ("--memory 5 --passes 1", "memory=5 is not a whole number"),
+        ("--aim perhaps", "one of off, on"),
         ("--memory 2XB", "such as 512MiB"),
         ("--seed -1", "a whole number from 0 to"),
         ("--compat nrenderer --depth 0", "1 or more"),
