@@ -30,10 +30,6 @@ impl Algorithm {
     pub(super) fn name(&self) -> &'static str {
         self.name
     }
-    /// Whether it has a setting called `name`.
-    pub(super) fn has(&self, name: &str) -> bool {
-        find(self.name).is_some_and(|e| e.settings().any(|p| p.name == name))
-    }
     /// Settings that differ from the integrator's own defaults, or may.
     pub(super) fn settings(&self) -> &BTreeMap<String, String> {
         &self.settings

@@ -119,6 +119,8 @@ End
     let ran = place.run(&format!("render two.scn {SMALL} -o a.png --integrator bdpt --explain"));
     assert!(ran.err.contains("100.0 % of the photons of light `area 2` never reach a visible kernel"), "{}", ran.err);
     assert!(!ran.err.contains("of light `area 1` never"), "{}", ran.err);
+    let ran = place.run(&format!("render two.scn {SMALL} -o a.png --integrator ppm --aim off --explain"));
+    assert!(ran.err.contains("of light `area 2` ") && ran.err.contains("`--aim on`"), "{}", ran.err);
     let ran = place.run(&format!("render ball.scn {SMALL} -o a.png --integrator ppm --depth 2 --explain"));
     assert!(ran.err.contains("of the light of `area 1` is cut off") && ran.err.contains("--depth"), "{}", ran.err);
 }

@@ -25,7 +25,12 @@ fn on(light: &LightBook, algorithm: &Algorithm) -> Vec<String> {
     let cut = of_watts(light.cut.watts());
     let mut advice = Vec::new();
     if light.stored.count == 0 {
-        advice.push(format!("no photon of light `{name}` is ever stored: `--integrator path` does as well without"));
+        let instead = if aim_is_off(algorithm) {
+            "`--aim on` looks for what could focus its light"
+        } else {
+            "`--integrator path` does as well without"
+        };
+        advice.push(format!("no photon of light `{name}` is ever stored: {instead}"));
     } else if light.useful_share() < USEFUL {
         let missed = 100.0 * (1.0 - light.useful_share());
         let what = what_to_do(light, of_watts(light.escaped.watts()), algorithm);
@@ -40,8 +45,13 @@ fn on(light: &LightBook, algorithm: &Algorithm) -> Vec<String> {
     advice
 }
 
+/// Whether the user chose so.
+fn aim_is_off(algorithm: &Algorithm) -> bool {
+    algorithm.settings().get("aim").is_some_and(|v| v == "off")
+}
+
 fn what_to_do(light: &LightBook, escaped: f64, algorithm: &Algorithm) -> String {
-    if algorithm.has("aim") && algorithm.settings().get("aim").is_some_and(|v| v == "off") {
+    if aim_is_off(algorithm) {
         return "`--aim on` sends them where they are needed".to_owned();
     }
     match light.kind {
