@@ -4,7 +4,7 @@ mod paths;
 mod scenes;
 
 use super::{
-    Heuristic, Merge, Techniques,
+    Engine, Heuristic, Merge, Techniques,
     joins::{Departed, Joins, LastLeg},
     light::LightVertex,
     mis::{Leg, Rule, Sums},
@@ -36,7 +36,7 @@ struct Setting<'w> {
     world: &'w World<'w>,
     rule: Rule,
     radii: &'w Radii,
-    source: Source,
+    source: &'w Source,
 }
 
 /// A sampler and its weight.
@@ -45,7 +45,7 @@ type Weight = (String, f32);
 impl Setting<'_> {
     fn joins(&self, path: &Path) -> Joins<'_> {
         let eta = self.rule.eta(self.radii.at(path.raster));
-        Joins { world: self.world, source: &self.source, rule: &self.rule, eta }
+        Joins { world: self.world, source: self.source, rule: &self.rule, eta }
     }
 
     /// The sums of the camera's subpath on arrival at each vertex, and on arrival at the light.
@@ -234,16 +234,30 @@ fn check(name: &str, lights: scenes::Lights) {
     let paths: Vec<Path> =
         (0..PATHS).filter_map(|i| Path::draw(&world, &mut Sampler::new(5, Domain::Prepare, 0, i))).collect();
     assert!(paths.len() > 300, "{name}: {} paths", paths.len());
+    let aimed = Engine::new(vcm::ON).source(&scene, SPEC, 1);
+    // In the middle of a wide ground, light from outside is aimed.
+    assert!(aimed.aim().is_some() || !lights.has_sky(), "{name}: not aimed");
+    for source in [Source::plain(), aimed] {
+        check_all(name, &world, &radii, &source, &paths);
+    }
+}
+
+fn check_all(name: &str, world: &World, radii: &Radii, source: &Source, paths: &[Path]) {
     for on in samplers() {
         for heuristic in Heuristic::ALL {
             let rule = Rule { on, heuristic, paths: 700.0, same_place: 0.02 };
-            let setting = Setting { world: &world, rule, radii: &radii, source: Source::plain() };
+            let setting = Setting { world, rule, radii, source };
             let (mut shared, mut most) = (0, 0);
-            for path in &paths {
+            for path in paths {
                 let weights = setting.weights(path);
                 let sum: f32 = weights.iter().map(|w| w.1).sum();
                 let right = weights.is_empty() || (sum - 1.0).abs() < TOLERANCE;
-                assert!(right, "{name}, {rule:?}: {sum}, {weights:?}\n{}", path.letters());
+                assert!(
+                    right,
+                    "{name}, aimed: {}, {rule:?}: {sum}, {weights:?}\n{}",
+                    source.aim().is_some(),
+                    path.letters()
+                );
                 shared += usize::from(weights.iter().filter(|w| w.1 > 0.01).count() > 1);
                 most = most.max(weights.len());
             }

@@ -24,6 +24,12 @@ pub(super) enum Lights {
     AllThroughLens,
 }
 
+impl Lights {
+    pub(super) fn has_sky(self) -> bool {
+        matches!(self, Self::Sky | Self::AllThroughLens)
+    }
+}
+
 pub(super) fn scene(lights: Lights) -> Scene {
     let mut b = SceneBuilder::new();
     walls(&mut b);
@@ -52,7 +58,11 @@ pub(super) fn scene(lights: Lights) -> Scene {
     if has(Lights::Directional) {
         b.light(DirectionalLight::new(Vec3::new(0.3, -0.4, -1.0), Vec3::ONE).unwrap());
     }
-    if has(Lights::Sky) {
+    if lights.has_sky() {
+        // So wide that light from outside is better aimed.
+        let far = Parallelogram::new(Vec3::new(-150.0, -1.01, -150.0), 300.0 * Vec3::Z, 300.0 * Vec3::X);
+        let ground = matt(&mut b, 0.3);
+        b.add(Shape::Parallelogram(far), ground);
         let sky = (0..128).map(|i| Vec3::splat(if i == 45 { 12.0 } else { 0.5 })).collect();
         let image = ImageTexture::new(16, 8, sky, Wrap::Repeat).unwrap();
         b.light(EnvironmentLight::panorama(image, Vec3::ONE, Mat3::IDENTITY).unwrap());
