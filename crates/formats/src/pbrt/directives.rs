@@ -2,61 +2,21 @@
 
 use super::files::Files;
 use super::lexer::Kind;
-use super::params::{Found, Params, number};
+use super::params::{Found, Params};
 use super::picture::Picture;
 use super::spectra::Role;
-use super::state::{self, Attributes, Cover};
+use super::state::{Attributes, Cover};
 use super::textures::Textures;
 use super::tokens::{At, Tokens};
+use super::words;
 use crate::diagnostic::Diagnostic;
 use crate::lines::shortened;
 use crate::load::Target;
-use glam::{DAffine3, DVec3};
+use glam::DAffine3;
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use sunfleck::scene::{ObjectId, SurfaceDef};
 use sunfleck::spectrum::Colour;
-
-const DIRECTIVES: [&str; 36] = [
-    "Accelerator",
-    "ActiveTransform",
-    "AreaLightSource",
-    "Attribute",
-    "AttributeBegin",
-    "AttributeEnd",
-    "Camera",
-    "ColorSpace",
-    "ConcatTransform",
-    "CoordSysTransform",
-    "CoordinateSystem",
-    "Film",
-    "Identity",
-    "Import",
-    "Include",
-    "Integrator",
-    "LightSource",
-    "LookAt",
-    "MakeNamedMaterial",
-    "MakeNamedMedium",
-    "Material",
-    "MediumInterface",
-    "NamedMaterial",
-    "ObjectBegin",
-    "ObjectEnd",
-    "ObjectInstance",
-    "Option",
-    "PixelFilter",
-    "ReverseOrientation",
-    "Rotate",
-    "Sampler",
-    "Scale",
-    "Shape",
-    "Texture",
-    "Transform",
-    "Translate",
-];
-const MORE_DIRECTIVES: [&str; 6] =
-    ["TransformBegin", "TransformEnd", "TransformTimes", "WorldBegin", "WorldEnd", "SurfaceIntegrator"];
 
 /// Blocks may be nested this deep.
 const MAX_BLOCKS: usize = 1000;
@@ -142,7 +102,7 @@ impl<'t> Importer<'t> {
     fn recover(&mut self) -> bool {
         loop {
             match self.tokens.peek() {
-                Ok(Some(token)) if token.kind == Kind::Word && is_directive(&token.at.text()) => return true,
+                Ok(Some(token)) if token.kind == Kind::Word && words::is_directive(&token.at.text()) => return true,
                 Ok(Some(_)) => {
                     if self.tokens.next().is_err() {
                         return false;
@@ -166,43 +126,10 @@ impl<'t> Importer<'t> {
     }
 
     fn directive(&mut self, word: &str, at: At) -> Found<()> {
+        if self.transform(word, &at)? {
+            return Ok(());
+        }
         match word {
-            "Identity" => self.state.change(|_| DAffine3::IDENTITY),
-            "Translate" => {
-                let v = DVec3::from_array(self.numbers(&at)?);
-                self.state.concat(DAffine3::from_translation(v));
-            }
-            "Scale" => {
-                let v = DVec3::from_array(self.numbers(&at)?);
-                self.state.concat(DAffine3::from_scale(v));
-            }
-            "Rotate" => {
-                let [angle, x, y, z] = self.numbers(&at)?;
-                let axis = DVec3::new(x, y, z).try_normalize();
-                let axis = axis.ok_or_else(|| bad(&at, "pbrt::transform", "a rotation needs an axis"))?;
-                self.state.concat(DAffine3::from_axis_angle(axis, angle.to_radians()));
-            }
-            "LookAt" => {
-                let [a, b, c, d, e, f, g, h, i] = self.numbers(&at)?;
-                let m = state::look_at(DVec3::new(a, b, c), DVec3::new(d, e, f), DVec3::new(g, h, i));
-                let message = "the eye, the point looked at and the direction up must not lie in a line";
-                self.state.concat(m.ok_or_else(|| bad(&at, "pbrt::transform", message))?);
-            }
-            "Transform" => {
-                let m = self.matrix(&at)?;
-                self.state.change(|_| m);
-            }
-            "ConcatTransform" => {
-                let m = self.matrix(&at)?;
-                self.state.concat(m);
-            }
-            "CoordinateSystem" => {
-                let name = self.string(&at)?;
-                self.coordinates.insert(name, self.state.ctm);
-            }
-            "CoordSysTransform" => self.coord_sys_transform(&at)?,
-            "ActiveTransform" => self.active_transform(&at)?,
-            "TransformTimes" => drop(self.numbers::<2>(&at)?),
             "AttributeBegin" => self.begin("AttributeBegin", at)?,
             "TransformBegin" => self.begin("TransformBegin", at)?,
             "AttributeEnd" => self.end("AttributeBegin", &at)?,
@@ -221,10 +148,10 @@ impl<'t> Importer<'t> {
 
     /// Directives with parameters behind them.
     fn with_params(&mut self, word: &str, at: At) -> Found<()> {
-        if !is_directive(word) {
+        if !words::is_directive(word) {
             let message = format!("an unknown directive `{}`", shortened(word));
             let error = at.tell(Diagnostic::error("pbrt::unknown-directive", message), "");
-            return Err(Box::new(error.one_of(word, DIRECTIVES.into_iter().chain(MORE_DIRECTIVES))));
+            return Err(Box::new(error.one_of(word, words::all())));
         }
         if word == "Option" {
             return Params::read(&mut self.tokens, at).map(drop);
@@ -269,32 +196,6 @@ impl<'t> Importer<'t> {
         Ok(())
     }
 
-    /// Exactly `N` numbers, in brackets or not.
-    fn numbers<const N: usize>(&mut self, at: &At) -> Found<[f64; N]> {
-        let opened = self.tokens.next_if(Kind::Open)?.is_some();
-        let mut numbers = [0.0; N];
-        for value in &mut numbers {
-            let Some(token) = self.tokens.next_if(Kind::Number)? else {
-                let error = at.tell(Diagnostic::error("pbrt::numbers", "too few numbers"), "behind this");
-                return Err(Box::new(error.expected(format!("{N} numbers"))));
-            };
-            *value = number(&token)?;
-        }
-        if opened && self.tokens.next_if(Kind::Close)?.is_none() {
-            let error = at.tell(Diagnostic::error("pbrt::numbers", "too many numbers"), "behind this");
-            return Err(Box::new(error.expected(format!("{N} numbers"))));
-        }
-        Ok(numbers)
-    }
-
-    fn matrix(&mut self, at: &At) -> Found<DAffine3> {
-        let m = state::matrix(&self.numbers(at)?);
-        m.ok_or_else(|| {
-            let error = bad(at, "pbrt::transform", "this matrix is no affine transformation");
-            Box::new(error.expected("a last row of 0 0 0 1 (every fourth number)"))
-        })
-    }
-
     /// The string behind a directive.
     pub(super) fn string(&mut self, at: &At) -> Found<String> {
         if let Some(token) = self.tokens.next_if(Kind::String)? {
@@ -302,29 +203,6 @@ impl<'t> Importer<'t> {
         }
         let error = at.tell(Diagnostic::error("pbrt::no-name", "this directive needs a name"), "");
         Err(Box::new(error.expected("a string in quotes")))
-    }
-
-    fn coord_sys_transform(&mut self, at: &At) -> Found<()> {
-        let name = self.string(at)?;
-        match self.coordinates.get(&name) {
-            Some(ctm) => self.state.ctm = *ctm,
-            None => return Err(unknown(at, "coordinate system", &name, self.coordinates.keys().map(String::as_str))),
-        }
-        Ok(())
-    }
-
-    fn active_transform(&mut self, at: &At) -> Found<()> {
-        let Some(token) = self.tokens.next_if(Kind::Word)? else {
-            return Err(Box::new(bad(at, "pbrt::transform", "which one?").expected("StartTime, EndTime or All")));
-        };
-        let word = token.at.text();
-        self.state.active = match word.as_str() {
-            "StartTime" => [true, false],
-            "EndTime" => [false, true],
-            "All" => [true, true],
-            _ => return Err(unknown(&token.at, "time", &word, ["StartTime", "EndTime", "All"])),
-        };
-        Ok(())
     }
 
     pub(super) fn begin(&mut self, begin: &'static str, at: At) -> Found<()> {
@@ -351,12 +229,6 @@ impl<'t> Importer<'t> {
             }
         }
         Ok(())
-    }
-
-    fn world_begin(&mut self) {
-        self.state.ctm = [DAffine3::IDENTITY; 2];
-        self.state.active = [true; 2];
-        self.coordinates.insert("world".to_owned(), self.state.ctm);
     }
 
     fn include(&mut self, at: &At) -> Found<()> {
@@ -412,10 +284,6 @@ impl<'t> Importer<'t> {
             self.target.sink.warn(code, make);
         }
     }
-}
-
-fn is_directive(word: &str) -> bool {
-    DIRECTIVES.contains(&word) || MORE_DIRECTIVES.contains(&word)
 }
 
 /// An error at a directive.

@@ -2,7 +2,8 @@
 //!
 //! The way of a file: [`lexer`] cuts bytes into tokens, [`tokens`] joins the tokens of all included files into one
 //! stream, [`params`] reads the parameters behind a directive, [`state`] keeps what `AttributeBegin` saves, and
-//! [`directives`] does what each directive says: shapes, lights, materials, textures and the picture, one file each.
+//! [`directives`] does what each directive says: transformations, shapes, lights, materials, textures and the picture, one
+//! file each.
 //! The scene is built while reading, as pbrt does, so a file may be larger than what it describes.
 //!
 //! What pbrt means is taken from its documented file format (pbrt.org, "pbrt-v4 Input File Format" and the one of
@@ -27,6 +28,8 @@ mod subdivide;
 mod tests;
 mod textures;
 mod tokens;
+mod transforms;
+mod words;
 
 pub(crate) use import::FORMAT;
 pub use import::check;
