@@ -15,7 +15,8 @@
 //! - [`kernel`], [`gather`]: the density estimate;
 //! - [`ledger`]: what becomes of the light of each lamp, and how much of it any gather reaches;
 //! - [`mod@survey`], [`radii`], [`radius`]: what the camera sees of the scene, and from it the first radius and how it
-//!   shrinks.
+//!   shrinks;
+//! - [`uniformity`]: radii fitted to how evenly photons lie.
 pub mod aim;
 pub mod deposit;
 pub mod gather;
@@ -26,6 +27,7 @@ pub mod radii;
 pub mod radius;
 pub mod source;
 pub mod survey;
+pub mod uniformity;
 
 pub use aim::Training;
 pub use deposit::{Catch, Keep, Photon, Shower};
@@ -37,3 +39,4 @@ pub use radii::Radii;
 pub use radius::{Reach, Schedule};
 pub use source::{Emission, Source};
 pub use survey::{Sighting, pixel_angle, survey};
+pub use uniformity::Evenness;

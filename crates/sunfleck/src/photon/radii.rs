@@ -76,6 +76,17 @@ impl Radii {
         self.typical *= factor;
         self
     }
+    /// Middle and size of each tile, in raster coordinates.
+    pub(super) fn centres(&self) -> Vec<(Vec2, Vec2)> {
+        let size = Vec2::new(1.0 / self.columns as f32, 1.0 / self.rows as f32);
+        let middle = |i: usize| Vec2::new((i % self.columns) as f32 + 0.5, (i / self.columns) as f32 + 0.5);
+        (0..self.log.len()).map(|i| (middle(i) * size, size)).collect()
+    }
+    /// Each tile's radius times a factor, smooth from tile to tile.
+    pub(super) fn times(self, factors: &[f32]) -> Self {
+        let log = self.log.iter().zip(factors).map(|(l, f)| l + f.ln()).collect();
+        Self { log, ..self }.smoothed()
+    }
     /// Each tile takes the mean of itself and its neighbours: what a handful of paths say of one tile is noisy.
     fn smoothed(self) -> Self {
         let near = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);
@@ -85,8 +96,11 @@ impl Radii {
             let (sum, n) = around.fold((0.0, 0.0), |(s, n), (x, y)| (s + self.log[y * self.columns + x], n + 1.0));
             sum / n
         };
-        let log = (0..self.log.len()).map(mean).collect();
-        Self { log, ..self }
+        let log: Vec<f32> = (0..self.log.len()).map(mean).collect();
+        let mut sorted = log.clone();
+        sorted.sort_by(f32::total_cmp);
+        let typical = sorted[sorted.len() / 2].exp();
+        Self { log, typical, ..self }
     }
     /// The first radius (world units) at `raster` (see [`crate::camera`]): smooth over the picture, held at its edges.
     #[inline]

@@ -1,14 +1,14 @@
 //! Photons and maps by themselves: how many, how much flux, which ones are found, and what a density estimate makes of
 //! them. Several of these were wrong in photon mappers that people wrote for courses.
-use crate::scenes::{ball, glass, matt, patch, room, walls};
+use crate::scenes::{ball, caustic, glass, matt, patch, room, spec, walls};
 use accel::Neighbours;
 use glam::Vec3;
 use sunfleck::{
     light::PointLight,
     math::{Ray, Vec2},
     photon::{
-        CameraEnd, Catch, Disc, Keep, Kernel, NearestMap, NearestQuery, Photon, RadiusMap, Shower, Source,
-        gather_nearest, gather_within,
+        CameraEnd, Catch, Disc, Evenness, Keep, Kernel, NearestMap, NearestQuery, Photon, Radii, RadiusMap, Shower,
+        Source, gather_nearest, gather_within,
     },
     sampler::{Domain, Sampler},
     scene::{Interaction, Scene, SceneBuilder},
@@ -306,4 +306,24 @@ fn a_query_does_not_cost_a_look_at_every_photon() {
     let found: usize =
         (0..30_000).map(|i| query.find(&map, Vec3::new((i as f32).sin(), 0.0, (i as f32).cos())).0).sum();
     assert_eq!(found, 30_000 * 19);
+}
+
+#[test]
+fn fitted_radii_shrink_where_light_is_focused_and_not_on_an_evenly_lit_wall() {
+    let scene = caustic();
+    let limits = Limits::default();
+    let first = Radii::from_footprints(&scene, spec(64), &limits, 1, 6.0, 1.0);
+    let source = Source::plain();
+    let fitted = first.clone().fitted(&scene, &Evenness { source: &source, limits, seed: 1, paths: 100_000 });
+    // Every place of the picture, as a factor of the first radius.
+    let factors: Vec<f32> = (0..64)
+        .map(|i| {
+            let p = (Vec2::new((i % 8) as f32, (i / 8) as f32) + 0.5) / 8.0;
+            fitted.at(p) / first.at(p)
+        })
+        .collect();
+    let (least, most) = factors.iter().fold((f32::MAX, 0.0f32), |(a, b), f| (a.min(*f), b.max(*f)));
+    assert!(least < 0.4 * most && most > 0.9, "{least} to {most}: {factors:?}");
+    let again = first.fitted(&scene, &Evenness { source: &source, limits, seed: 1, paths: 100_000 });
+    assert!((0..64).all(|i| again.at(Vec2::splat(i as f32 / 64.0)) == fitted.at(Vec2::splat(i as f32 / 64.0))));
 }

@@ -28,7 +28,7 @@ use super::{Integrator, ParamError, ParamInfo, Params, Pass, PassRenderer, eye_r
 use crate::{
     camera::Project,
     film::{FilmSpec, PassImage},
-    photon::{Audit, Kernel, Radii, RadiusMap, Schedule, Source, Training, pixel_angle},
+    photon::{Audit, Evenness, Kernel, Radii, RadiusMap, Schedule, Source, Training, pixel_angle},
     scene::{MID_SHUTTER, Scene, World},
     spectrum::Wavelengths,
     walk::{Limits, walk, walk_evenly},
@@ -54,6 +54,8 @@ pub struct Engine {
     pub radius: Option<f32>,
     /// First radius over what pixels cover, or over `radius`.
     pub radius_scale: f32,
+    /// Whether a training fits the first radius to how evenly photons lie.
+    pub fit: bool,
     /// How the radius shrinks.
     pub schedule: Schedule,
     /// What a photon counts.
@@ -71,14 +73,17 @@ pub struct Engine {
 
 /// First radius in widths of a pixel.
 const PIXELS: f32 = 4.0;
+/// A round that fits radii has this many times fewer light paths than a pass.
+const FITTING_SHARE: u64 = 3;
 /// Light paths a pass at least and at most, if not set: few pixels still need photons, and many share them.
 const PATHS: std::ops::RangeInclusive<u64> = 1 << 14..=1 << 21;
 
 /// What every algorithm on the engine can be told.
-pub(super) const PARAMS: [ParamInfo; 8] = [
+pub(super) const PARAMS: [ParamInfo; 9] = [
     ParamInfo { name: "photons", about: "light paths a pass, 1 to 1e9 (default: by the size of the picture)" },
     ParamInfo { name: "radius", about: "first radius, world units > 0 (default: from what pixels cover)" },
     ParamInfo { name: "radius-scale", about: "first radius over that, 1e-6 to 1e6 (default 1)" },
+    ParamInfo { name: "fit", about: "fit the first radius to the light: on or off (default off)" },
     ParamInfo { name: "alpha", about: "how the radius shrinks, 0.01 to 1 (default 2/3; 1 keeps it)" },
     ParamInfo { name: "kernel", about: "constant, cone or epanechnikov (default epanechnikov)" },
     ParamInfo {
@@ -101,6 +106,7 @@ impl Engine {
             paths: None,
             radius: None,
             radius_scale: 1.0,
+            fit: false,
             schedule: Schedule::default(),
             kernel: Kernel::Epanechnikov,
             memory: 2_000_000_000,
@@ -119,6 +125,7 @@ impl Engine {
             paths: (paths > 0).then_some(paths),
             radius: (radius > 0.0).then_some(radius),
             radius_scale: p.number("radius-scale", 1.0, 1e-6..=1e6)? as f32,
+            fit: p.switch("fit", d.fit)?,
             schedule: Schedule { alpha: p.number("alpha", d.schedule.alpha, 0.01..=1.0)? },
             kernel: Kernel::ALL[p.word("kernel", d.kernel as usize, &Kernel::WORDS)?],
             memory: p.count("memory", d.memory, 1_000_000..=1_000_000_000_000_000)?,
@@ -158,6 +165,10 @@ impl Integrator for Engine {
             same_place: std::f32::consts::PI * degree * degree,
             plan: None,
         };
+        if self.fit && prepared.paths > 0 {
+            let (source, limits, paths) = (&prepared.source, self.limits, prepared.paths.div_ceil(FITTING_SHARE));
+            prepared.radii = prepared.radii.clone().fitted(scene, &Evenness { source, limits, seed, paths });
+        }
         if self.planned {
             let plan = Plan::train(&prepared, spec, seed);
             if plan.needs() == Merge::Off {
