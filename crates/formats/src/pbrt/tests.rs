@@ -114,6 +114,21 @@ fn transformations_nest_and_come_back() {
 }
 
 #[test]
+fn what_a_block_says_ends_with_it() {
+    let counts = |text: &str| {
+        let file = loaded(&format!("WorldBegin\n{LIGHT}{text}"));
+        (file.surfaces, file.lights)
+    };
+    let hidden = "AttributeBegin Material \"\" Shape \"sphere\" AttributeEnd Shape \"disk\"";
+    assert_eq!(counts(hidden), (1, 1));
+    assert_eq!(counts("Shape \"disk\" TransformBegin Material \"\" TransformEnd Shape \"sphere\""), (1, 1));
+    assert_eq!(
+        counts("AttributeBegin AreaLightSource \"diffuse\" Shape \"disk\" AttributeEnd Shape \"sphere\""),
+        (2, 2)
+    );
+}
+
+#[test]
 fn objects_are_placed_by_both_transformations() {
     let text = "WorldBegin\nLightSource \"point\"\nObjectBegin \"o\" Translate 1 0 0 Shape \"sphere\" ObjectEnd\n\
         Translate 0 5 0 ObjectInstance \"o\" Translate 0 5 0 ObjectInstance \"o\"";
