@@ -175,21 +175,25 @@ impl Importer<'_> {
             }
             return Ok(());
         }
-        if let Some(motion) = self.motion().filter(|m| shape.transformed(m).is_some()) {
-            // Shown as an object that starts where it is.
+        if let Some([from, to]) = self.motion()
+            && let Some(shape) = shape.transformed(&from.inverse())
+            && shape.transformed(&to).is_some()
+        {
             let object = self.target.object(vec![SurfaceDef { shape, material, emission }]);
-            self.target.place_moving(object, Affine3A::IDENTITY, motion);
+            self.target.place_moving(object, from, to);
             return Ok(());
         }
         self.target.surface(shape, material, emission);
         Ok(())
     }
 
-    /// From where the current transformation puts things when the shutter opens to where it does when it closes.
-    fn motion(&self) -> Option<Affine3A> {
+    /// The way of what moves, as two placements of what is turned and stretched already as the shutter opens, but lies
+    /// around the origin of its own space: about that point pbrt turns things.
+    fn motion(&self) -> Option<[Affine3A; 2]> {
         let [open, close] = self.state.ctm;
-        let motion = rounded(&(close * open.inverse()));
-        (self.state.moves() && Motion::new(&Affine3A::IDENTITY, &motion).is_some()).then_some(motion)
+        let from = DAffine3::from_translation(open.translation);
+        let [from, to] = [from, close * open.inverse() * from].map(|m| rounded(&m));
+        (self.state.moves() && Motion::new(&from, &to).is_some()).then_some([from, to])
     }
 
     /// `None` for what is a boundary between media only.

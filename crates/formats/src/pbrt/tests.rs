@@ -141,6 +141,21 @@ fn objects_are_placed_by_both_transformations() {
 }
 
 #[test]
+fn what_turns_turns_about_the_origin_of_its_own_space() {
+    let turn = "Translate 5 0 0 ActiveTransform EndTime Rotate 90 0 0 1 ActiveTransform All";
+    // Its origin goes straight from one place to the other, as in pbrt.
+    let cases = [("", [[5.0, 0.0], [5.0, 0.0], [5.0, 0.0]]), ("Translate 2 0 0", [[7.0, 0.0], [6.0, 1.0], [5.0, 2.0]])];
+    for (more, way) in cases {
+        let scene = scene(&format!("WorldBegin\n{LIGHT}{turn} {more} Shape \"sphere\""));
+        for (time, [x, y]) in [0.0, 0.5, 1.0].into_iter().zip(way) {
+            let ray = Ray { o: Vec3::new(x, y, 9.0), d: -Vec3::Z, tmin: 0.0, tmax: f32::INFINITY };
+            let n = scene.world(Wavelengths::Rgb, time).intersect(&ray).map(|hit| hit.ng);
+            assert!(n.is_some_and(|n| n.z > 0.9999), "{more} at {time}: {n:?}");
+        }
+    }
+}
+
+#[test]
 fn light_has_pbrts_units() {
     let light = |text: &str| match &scene(text).lights()[0] {
         Light::Point(light) => light.intensity.rgb(),
