@@ -13,4 +13,4 @@ pub(super) const ENTRY: Entry = Entry {
 };
 
 pub(super) const ON: Techniques =
-    Techniques { hit: true, nee: true, light_image: true, connect: true, merge: Merge::All };
+    Techniques { hit: true, nee: true, light_image: true, connect: true, merge: Merge::Scattered };

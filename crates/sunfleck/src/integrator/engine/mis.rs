@@ -81,7 +81,8 @@ impl Rule {
     #[inline]
     pub(super) fn sharing(&self, pdf_area: f32) -> f32 {
         let same = pdf_area * self.same_place;
-        if same >= 1.0 {
+        // Caustics are found badly by all else, so paths gather them at every vertex, and at their full number.
+        if same >= 1.0 || self.on.merge == Merge::Caustic {
             1.0
         } else if same > APART {
             self.heuristic.of(same.sqrt())
