@@ -270,7 +270,7 @@ impl Look<'_> {
         let value = gather(map, a.at, disc, end, |photon, at| match () {
             () if !rule.gathers(photon.caustic) => 0.0,
             () if unweighted => 1.0,
-            () => rule.merge_weight(sums, &photon.sums, at, eta),
+            () => rule.merge_weight(sums, &photon.sums, u32::from(photon.scatterings), at, eta),
         });
         self.add(Technique::Merge, a.beta * value, 1.0);
     }

@@ -210,7 +210,7 @@ impl Visit for Shine<'_, '_> {
             let (flux, scatterings, dispersed, merges) = (a.beta, a.scatterings, a.dispersed, self.merges);
             self.out.vertices.push(LightVertex { at: *a.at, flux, scatterings, dispersed, merges, sums });
         }
-        if rule.on.light_image {
+        if rule.images(a.scatterings) {
             self.splat(a, &sums, u_lens);
         }
         Step::On

@@ -42,6 +42,10 @@ pub(super) struct Sums {
     pub(super) vcm: f32,
     /// Connections, light samples and hits.
     pub(super) vc: f32,
+    /// As `vcm`, of the connection to the lens, where the last vertex is a camera path's first.
+    pub(super) image: f32,
+    /// What `image` of the vertex before the last is at the last.
+    pub(super) vc_image: f32,
     /// Merging at the vertex before the last, over η.
     pub(super) vm_last: f32,
     /// Merging farther back, over η.
@@ -53,6 +57,11 @@ pub(super) struct Sums {
 }
 
 impl Sums {
+    /// Connections of every kind at all earlier vertices.
+    #[inline]
+    pub(super) fn vc(&self) -> f32 {
+        self.vc + self.vc_image
+    }
     /// Merging at all earlier vertices, over η.
     #[inline]
     pub(super) fn vm(&self) -> f32 {
@@ -103,8 +112,15 @@ impl Rule {
     /// for each light path. `pdf`: density (1/sr) of one camera path a pixel.
     #[inline]
     pub(super) fn leave_camera(&self, pdf: f32, d2: f32, cos: f32) -> Sums {
-        let vcm = if self.on.light_image { self.heuristic.of(self.paths * d2 / (pdf * cos)) } else { 0.0 };
-        Sums { vcm, shared: 1.0, ..Sums::default() }
+        let image = if self.on.light_image { self.heuristic.of(self.paths * d2 / (pdf * cos)) } else { 0.0 };
+        Sums { image, shared: 1.0, ..Sums::default() }
+    }
+    /// Whether light vertices after so many scatterings are connected to the lens. Direct light is not where lights are
+    /// chosen from camera vertices, which finds it with hardly any noise: that a pixel gets one or two light paths is noise
+    /// alone, and balancing densities cannot tell.
+    #[inline]
+    pub(super) fn images(&self, scatterings: u32) -> bool {
+        self.on.light_image && (scatterings > 0 || !self.on.nee)
     }
     /// 1 if photons that were scattered `scatterings` times, last by a delta lobe if `delta`, are merged beside other
     /// samplers; else 0.
@@ -142,7 +158,9 @@ impl Rule {
         let back = h.of(turn.back);
         Sums {
             vcm: self.connection(forward_area),
-            vc: g * (s.vcm + back * s.vc),
+            vc: g * (s.vcm + back * s.vc()),
+            image: 0.0,
+            vc_image: g * s.image,
             vm_last: g * merges,
             vm_rest: g * back * sharing * s.vm(),
             geometry: turn.cos / to.d2,
@@ -153,7 +171,7 @@ impl Rule {
     #[inline]
     pub(super) fn pass_through(&self, s: &Sums, cos: f32, to: Leg) -> Sums {
         let g = self.heuristic.of(cos / to.cos);
-        Sums { vcm: 0.0, vc: g * s.vc, vm_last: 0.0, vm_rest: g * s.vm(), geometry: cos / to.d2, shared: s.shared }
+        Sums { vc: g * s.vc(), vm_rest: g * s.vm(), geometry: cos / to.d2, shared: s.shared, ..Sums::default() }
     }
 }
 

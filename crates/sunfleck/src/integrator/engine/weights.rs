@@ -31,7 +31,8 @@ impl Rule {
         let h = self.heuristic;
         let nee = if self.on.nee { h.of(direct_over_pdf) } else { 0.0 };
         let vm = if self.on.merge.of_direct() { s.vm() } else { s.vm_rest };
-        weight(nee + h.of(emitted) * (s.vc + eta * vm))
+        let vc = if self.images(0) { s.vc() } else { s.vc };
+        weight(nee + h.of(emitted) * (vc + eta * vm))
     }
 
     /// A point of a light chosen from a camera vertex. `hit_over_pdf`: density of meeting it by chance over that of the
@@ -42,7 +43,8 @@ impl Rule {
         let h = self.heuristic;
         let hit = if self.on.hit { h.of(hit_over_pdf) } else { 0.0 };
         let here = eta * s.shared * self.merges(0, false);
-        weight(hit + h.of(emitted_over_pdf) * (here + s.vcm + h.of(back) * (s.vc + eta * s.vm())))
+        let image = if self.images(0) { s.image } else { 0.0 };
+        weight(hit + h.of(emitted_over_pdf) * (here + s.vcm + image + h.of(back) * (s.vc() + eta * s.vm())))
     }
 
     /// A light vertex connected to the lens. `camera_area`: density (1/m²) of one camera path of the pixel at the vertex;
@@ -67,17 +69,26 @@ impl Rule {
         let farther = light_shared * self.sharing(light.back * l.geometry);
         let on_light = h.of(light.area)
             * (eta * merges * light_shared + l.vcm + h.of(light.back) * (l.vc + eta * farther * l.vm()));
-        let on_camera = h.of(camera.area) * (eta * camera_merges + c.vcm + h.of(camera.back) * (c.vc + eta * c.vm()));
+        let on_camera =
+            h.of(camera.area) * (eta * camera_merges + c.vcm + c.image + h.of(camera.back) * (c.vc() + eta * c.vm()));
         weight(on_light + on_camera)
     }
 
-    /// A photon gathered at a camera vertex. `at`: densities at the vertex, forward to where the photon came from.
+    /// A photon gathered at a camera vertex, after so many scatterings. `at`: densities at the vertex, forward to where the photon came from.
     #[inline]
-    pub(super) fn merge_weight(&self, camera: &Sums, photon: &PhotonSums, at: Between, eta: f32) -> f32 {
+    pub(super) fn merge_weight(
+        &self,
+        camera: &Sums,
+        photon: &PhotonSums,
+        scatterings: u32,
+        at: Between,
+        eta: f32,
+    ) -> f32 {
         let h = self.heuristic;
         let farther = camera.shared * self.sharing(at.forward * photon.geometry);
         let on_light = photon.vcm + h.of(at.forward) * (photon.vc + eta * farther * photon.vm);
-        let on_camera = camera.vcm + h.of(at.back) * (camera.vc + eta * camera.vm());
+        let image = if self.images(scatterings) { camera.image } else { 0.0 };
+        let on_camera = camera.vcm + image + h.of(at.back) * (camera.vc() + eta * camera.vm());
         weight((on_light + on_camera) / (eta * camera.shared))
     }
 }

@@ -156,7 +156,7 @@ impl Setting<'_> {
     }
     fn of_lens(&self, path: &Path, light: &[LightVertex]) -> Option<Weight> {
         let v = &light[0];
-        if !self.rule.on.light_image || path.vertices[0].delta {
+        if !self.rule.images(v.scatterings) || path.vertices[0].delta {
             return None;
         }
         let c = self.world.camera().sample_wi(v.at.p, path.u_lens).expect("a vertex that the camera sees");
@@ -188,7 +188,13 @@ impl Setting<'_> {
                 let weight = if rule.on.merge.at_first_only() {
                     1.0
                 } else {
-                    rule.merge_weight(&rule.rough(&camera[i]), &(&photon.sums).into(), at, joins.eta)
+                    rule.merge_weight(
+                        &rule.rough(&camera[i]),
+                        &(&photon.sums).into(),
+                        photon.scatterings,
+                        at,
+                        joins.eta,
+                    )
                 };
                 (format!("merging {i}"), weight)
             })
