@@ -110,8 +110,8 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
     walk_by::<false>(world, start, *limits, sampler, visitor)
 }
 
-/// As [`walk`], but where a delta surface offers two ways, takes either with probability [`EVEN`] instead of in proportion to
-/// what each carries: finds what is bright behind rare reflections. [`Scattered::pdf`] stays the probability of [`walk`].
+/// As [`walk`], but where a delta surface offers two ways, takes each with probability [`way_prob`] instead of in proportion to
+/// what it carries: finds what is bright behind rare reflections. [`Scattered::pdf`] stays the probability of [`walk`].
 pub fn walk_evenly(
     world: &World,
     start: &Start,
@@ -122,8 +122,15 @@ pub fn walk_evenly(
     walk_by::<true>(world, start, *limits, sampler, visitor)
 }
 
-/// Probability of each of two ways in [`walk_evenly`].
-pub const EVEN: f32 = 0.5;
+/// Probability of a reflection in [`walk_evenly`]: well above that of clear glass, and low enough for the many passages
+/// between two reflections.
+const REFLECT: f32 = 0.25;
+
+/// Probability with which [`walk_evenly`] takes the way `s` of two at a delta surface.
+#[inline]
+pub fn way_prob(s: &Scattered) -> f32 {
+    if s.eta == 1.0 { REFLECT } else { 1.0 - REFLECT }
+}
 
 fn walk_by<const EVENLY: bool>(
     world: &World,
@@ -149,11 +156,11 @@ fn walk_by<const EVENLY: bool>(
         }
         let u_lobe = if at.bsdf.has_one_lobe() { sampler.skip() } else { sampler.next_1d() };
         let evenly = EVENLY && !at.is_connectible();
-        // The first way has the lower numbers.
-        let u_lobe = if evenly { if u_lobe < EVEN { 0.0 } else { 1.0 - f32::EPSILON } } else { u_lobe };
+        // Reflections have the lower numbers.
+        let u_lobe = if evenly { if u_lobe < REFLECT { 0.0 } else { 1.0 - f32::EPSILON } } else { u_lobe };
         let Some(mut s) = at.sample(u_lobe, sampler.next_2d(), mode) else { break };
         if evenly && s.pdf < 1.0 {
-            s.weight *= s.pdf / EVEN;
+            s.weight *= s.pdf / way_prob(&s);
         }
         if step == Step::OnIfDelta && !s.delta {
             break;

@@ -1,13 +1,12 @@
 //! Lamps seen through mirrors and glass alone.
 //!
 //! No light path can be joined to such a view, and a lamp behind several faint reflections is as bright as it is rare: a few
-//! pixels sparkle for hours. So a second walk from the same camera ray takes the two ways of each boundary evenly, and the two
-//! walks are weighed against each other by the balance heuristic.
+//! pixels sparkle for hours. So a second walk from the same camera ray reflects more often than glass does, and the two walks are weighed against each other by the balance heuristic.
 use crate::{
     sampler::Sampler,
     scene::{Interaction, Scattered, World},
     spectrum::Spectrum,
-    walk::{Arrival, EVEN, Escape, Step, Visit},
+    walk::{Arrival, Escape, Step, Visit, way_prob},
 };
 
 /// Probabilities with which the two walks take a chain of delta lobes.
@@ -19,7 +18,7 @@ pub(super) struct Chain {
 }
 
 /// Choices in a chain at most; longer ones are left to the first walk.
-const CHOICES: u32 = 12;
+const CHOICES: u32 = 24;
 
 impl Chain {
     pub(super) fn new() -> Self {
@@ -31,7 +30,7 @@ impl Chain {
         self.by_weight *= s.pdf;
         if s.pdf < 1.0 {
             self.choices += 1;
-            self.evenly *= EVEN;
+            self.evenly *= way_prob(s);
         }
     }
     /// Whether the second walk still follows.
