@@ -2,7 +2,7 @@
 use super::{
     gather::gather,
     joins::{Joins, LastLeg},
-    lamps::{Chain, Lamps},
+    lamps::{Chain, Lamps, is_small},
     light::{Photon, Subpaths},
     mis::{Leg, Rule, Sums},
     plan::Plan,
@@ -181,8 +181,8 @@ impl Visit for Look<'_> {
         }
         let sums = if e.scatterings == 0 { Sums::default() } else { self.track.after(&self.rule, Leg::AWAY) };
         for sky in eye.world.escaped(self.from, e.ray.d) {
-            let weight = if let Some(chain) = &self.chain {
-                if e.scatterings == 0 { 1.0 } else { chain.weight() }
+            let weight = if self.chain.is_some() {
+                1.0
             } else {
                 self.joins().sky(&sums, LastLeg::new(self.from, e.pdf, e.delta), e.ray.d, &sky)
             };
@@ -207,7 +207,8 @@ impl Look<'_> {
             return;
         }
         let weight = if let Some(chain) = &self.chain {
-            if a.scatterings == 0 { 1.0 } else { chain.weight() }
+            let small = a.at.light.is_some_and(|id| is_small(self.eye.world, self.eye.world.light(id)));
+            if a.scatterings > 0 && small { chain.weight() } else { 1.0 }
         } else {
             self.joins().hit(sums, LastLeg::new(self.from, a.pdf, a.delta), a.at)
         };

@@ -3,10 +3,11 @@
 //! No light path can be joined to such a view, and a lamp behind several faint reflections is as bright as it is rare: a few
 //! pixels sparkle for hours. So a second walk from the same camera ray reflects more often than glass does, and the two walks are weighed against each other by the balance heuristic.
 use crate::{
+    light::{Light, LightId},
     sampler::Sampler,
     scene::{Interaction, Scattered, World},
     spectrum::Spectrum,
-    walk::{Arrival, Escape, Step, Visit, way_prob},
+    walk::{Arrival, Step, Visit, way_prob},
 };
 
 /// Probabilities with which the two walks take a chain of delta lobes.
@@ -44,6 +45,19 @@ impl Chain {
     }
 }
 
+/// A lamp is small if its area is less than this part of a sphere around the scene. Others are met often, and are no brighter
+/// than what surrounds them: of those, one walk alone sees an even picture.
+const SMALL: f32 = 0.01;
+
+/// Whether `light` is looked for by the second walk too.
+#[inline]
+pub(super) fn is_small(world: &World, light: &Light) -> bool {
+    match light {
+        Light::Area(l) => l.shape.area() < SMALL * 4.0 * world.around().disk_area(),
+        _ => false,
+    }
+}
+
 /// The second walk: adds up the lamps it sees past the first surface.
 pub(super) struct Lamps<'w> {
     world: &'w World<'w>,
@@ -60,7 +74,7 @@ impl<'w> Lamps<'w> {
 impl Visit for Lamps<'_> {
     #[inline]
     fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
-        if a.scatterings > 0 {
+        if a.scatterings > 0 && a.at.light.is_some_and(|id: LightId| is_small(self.world, self.world.light(id))) {
             self.sum += a.beta * self.world.emitted(a.at) * (1.0 - self.chain.weight());
         }
         if a.at.is_connectible() { Step::Stop } else { Step::OnIfDelta }
@@ -68,12 +82,5 @@ impl Visit for Lamps<'_> {
     #[inline]
     fn scatter(&mut self, _: &Interaction, s: &Scattered) {
         self.chain.pass(s);
-    }
-    #[inline]
-    fn escape(&mut self, e: &Escape) {
-        if e.scatterings > 0 {
-            let le = self.world.escaped(e.ray.o, e.ray.d).fold(Spectrum::BLACK, |sum, sky| sum + sky.le);
-            self.sum += e.beta * le * (1.0 - self.chain.weight());
-        }
     }
 }

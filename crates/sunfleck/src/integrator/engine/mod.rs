@@ -35,7 +35,7 @@ use crate::{
 };
 use camera::{Eye, EyeStart, Look, Only};
 use glam::Vec2;
-use lamps::Lamps;
+use lamps::{Lamps, is_small};
 use light::{Shower, Subpaths};
 use mis::Rule;
 use plan::Plan;
@@ -290,6 +290,7 @@ impl Prepared<'_> {
             only: job.only,
         };
         let spec = image.spec();
+        let small_lamps = world.lights().any(|l| is_small(&world, l));
         image.fill(|x, y, counts| {
             let mut ray = EyeRay::new(&world, spec, &job.pass, job.sample, (x, y));
             let partner = if rule.on.connect { ray.sampler.next_1d() * rule.paths } else { 0.0 };
@@ -302,7 +303,7 @@ impl Prepared<'_> {
             let mut look = Look::new(&eye, start, counts);
             let (limits, start_ray) = (&self.engine.limits, ray.start());
             let rays = walk(&world, &start_ray, limits, &mut ray.sampler, &mut look);
-            if look.began_with_delta() {
+            if small_lamps && look.began_with_delta() {
                 // Rare ways are the point: no roulette ends them. The numbers go on from those of the first walk.
                 let limits = Limits { roulette_after: u32::MAX, ..*limits };
                 let mut lamps = Lamps::new(&world);
