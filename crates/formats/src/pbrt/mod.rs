@@ -1,8 +1,8 @@
 //! pbrt scenes, version 4 and the names of version 3.
 //!
-//! The way of a file: [`lexer`] cuts bytes into tokens, [`tokens`] joins the tokens of all included files into one
-//! stream, [`params`] reads the parameters behind a directive, [`state`] keeps what `AttributeBegin` saves, and
-//! [`directives`] does what each directive says: transformations, shapes, lights, materials, textures and the picture, one
+//! The way of a file: `lexer` cuts bytes into tokens, `tokens` joins the tokens of all included files into one
+//! stream, `params` reads the parameters behind a directive, `state` keeps what `AttributeBegin` saves, and
+//! `directives` does what each directive says: transformations, shapes, lights, materials, textures and the picture, one
 //! file each.
 //! The scene is built while reading, as pbrt does, so a file may be larger than what it describes.
 //!

@@ -5,11 +5,11 @@
 //! to send its rays to, through a cone from a lamp, through a disk across the direction from infinity. The mixture is
 //! then frozen: passes stay pure functions.
 //!
-//! - [`mod@need`]: camera paths tell where photons will be gathered, and what light may have to pass on its way there;
-//! - [`mod@trial`]: light paths on trial, each with what it would add to the relative error of the picture;
-//! - [`mod@cluster`]: spheres around the places where useful paths first meet the scene;
-//! - [`mod@fit`]: the weights that leave the least error;
-//! - [`mod@learn`], [`mod@train`]: a mixture from trials, and rounds of these; [`mod@mixture`] and [`mod@target`]: what is left of it all.
+//! - `need`: camera paths tell where photons will be gathered, and what light may have to pass on its way there;
+//! - `trial`: light paths on trial, each with what it would add to the relative error of the picture;
+//! - `cluster`: spheres around the places where useful paths first meet the scene;
+//! - `fit`: the weights that leave the least error;
+//! - `learn`, `train`: a mixture from trials, and rounds of these; `mixture` and `target`: what is left of it all.
 //!
 //! All of it serves one end, light paths of densities that can be asked for: any light, any scene and any algorithm that
 //! divides by them stays right, however badly a training went.
