@@ -51,8 +51,10 @@ impl Algorithm {
 /// What the file says, where nothing else was said. How photons are sent is the file's business only where the user asks
 /// for an algorithm that sends them: our default finds better values by itself.
 fn add_hints(settings: &mut BTreeMap<String, String>, args: &AlgorithmArgs, entry: &Entry, hints: &Hints) {
-    let photons = args.integrator.as_ref().and(hints.photons.map(|n| n.to_string()));
-    let radius = args.integrator.as_ref().and(hints.radius.map(|r| r.to_string()));
+    // A file's photons and radius are meant for the progressive photon mapper that it names.
+    let asked = args.integrator.as_deref().filter(|name| ["ppm", "sppm"].contains(name));
+    let photons = asked.and(hints.photons.map(|n| n.to_string()));
+    let radius = asked.and(hints.radius.map(|r| r.to_string()));
     let scatterings = hints.scatterings.map(|n| n.to_string());
     for (name, value) in [("scatterings", scatterings), ("photons", photons), ("radius", radius)] {
         if let Some(value) = value.filter(|_| entry.settings().any(|p| p.name == name)) {
