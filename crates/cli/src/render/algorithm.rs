@@ -49,7 +49,7 @@ impl Algorithm {
 }
 
 /// What the file says, where nothing else was said. How photons are sent is the file's business only where the user asks
-/// for an algorithm that sends them: our default finds better values by itself.
+/// for the algorithm that files of this kind mean: all others find better values by themselves.
 fn add_hints(settings: &mut BTreeMap<String, String>, args: &AlgorithmArgs, entry: &Entry, hints: &Hints) {
     // A file's photons and radius are meant for the progressive photon mapper that it names.
     let asked = args.integrator.as_deref().filter(|name| ["ppm", "sppm"].contains(name));
