@@ -65,7 +65,7 @@ impl Outputs {
         let spec = film.spec();
         let data: Vec<[f32; 3]> = film.mean().iter().map(Vec3::to_array).collect();
         let linear = RgbImage32 { width: spec.width, height: spec.height, data };
-        let file = ImageFile { image: linear, layers: Vec::new(), metadata: metadata.to_vec() };
+        let file = ImageFile { image: linear, metadata: metadata.to_vec(), ..ImageFile::default() };
         self.files.iter().map(|output| self.write_one(output, &file, self.tone.unwrap_or(tone))).collect()
     }
 
@@ -79,7 +79,7 @@ impl Outputs {
         };
         if format.extensions.contains(&"exr") {
             let (image, layers) = (apart.sum.clone(), apart.layers.clone());
-            let file = ImageFile { image, layers, metadata: metadata.to_vec() };
+            let file = ImageFile { image, layers, metadata: metadata.to_vec(), ..ImageFile::default() };
             return vec![self.write_one(&beside("explain"), &file, tone)];
         }
         let one = |(name, image): &(String, RgbImage32)| {

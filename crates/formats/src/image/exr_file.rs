@@ -53,7 +53,7 @@ fn read(bytes: &[u8]) -> Result<ImageFile, String> {
     let image = pictures.remove(main).image;
     let same_size = |p: &Picture| (p.image.width, p.image.height) == (image.width, image.height);
     let layers = pictures.into_iter().filter(same_size).map(|p| (p.name, p.image)).collect();
-    Ok(ImageFile { image, layers, metadata })
+    Ok(ImageFile { image, layers, metadata, ..ImageFile::default() })
 }
 
 fn check_header(bytes: &[u8]) -> Result<(), String> {

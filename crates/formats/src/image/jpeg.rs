@@ -1,6 +1,6 @@
 //! JPEG: for textures, read only.
 
-use super::{ImageFile, ImageFormat, png::decode_srgb};
+use super::{ImageFile, ImageFormat, decode::decode};
 use image::codecs::jpeg::JpegDecoder;
 use std::io::Cursor;
 
@@ -14,5 +14,5 @@ pub(super) const FORMAT: ImageFormat = ImageFormat {
 };
 
 fn read(bytes: &[u8]) -> Result<ImageFile, String> {
-    decode_srgb(JpegDecoder::new(Cursor::new(bytes)).map_err(|e| e.to_string())?, bytes.len())
+    decode(JpegDecoder::new(Cursor::new(bytes)).map_err(|e| e.to_string())?, bytes.len())
 }

@@ -4,16 +4,24 @@
 //! one line in that list. Reading goes by the first bytes of a file, writing by the extension of its name. A picture is
 //! written to a temporary file beside its target and moved there when it is whole.
 
+mod bmp;
+mod decode;
 mod display;
 mod exr_file;
 mod exr_order;
 mod hdr;
 mod jpeg;
+mod ktx2;
 mod pfm;
 mod png;
 mod save;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod texture_tests;
+mod tga;
+mod tiff;
+mod webp;
 
 pub use display::{Tone, linear_from_srgb, srgb_from_linear};
 pub use save::{WriteReport, write_image};
@@ -60,11 +68,26 @@ pub struct ImageFile {
     pub layers: Vec<(String, RgbImage32)>,
     /// Names and values, such as the seed. Names are unique.
     pub metadata: Vec<(String, String)>,
+    /// Opacity in [0, 1] by pixel; empty where the file has none. Colours are not multiplied by it.
+    pub alpha: Vec<f32>,
+    /// Whether the file holds 8- or 16-bit values, read as sRGB; [`Self::undo_srgb`] is for those that are no colours.
+    pub is_encoded: bool,
+}
+
+impl ImageFile {
+    /// The picture with the stored values as they are, for data such as roughness or normals.
+    pub fn undo_srgb(mut self) -> Self {
+        if self.is_encoded {
+            self.image.data.iter_mut().flatten().for_each(|v| *v = srgb_from_linear(*v));
+            self.is_encoded = false;
+        }
+        self
+    }
 }
 
 impl From<RgbImage32> for ImageFile {
     fn from(image: RgbImage32) -> Self {
-        Self { image, layers: Vec::new(), metadata: Vec::new() }
+        Self { image, ..Self::default() }
     }
 }
 
@@ -92,9 +115,20 @@ pub struct ImageFormat {
 }
 
 /// All image formats.
-pub const FORMATS: &[ImageFormat] = &[exr_file::FORMAT, png::FORMAT, hdr::FORMAT, pfm::FORMAT, jpeg::FORMAT];
+pub const FORMATS: &[ImageFormat] = &[
+    exr_file::FORMAT,
+    png::FORMAT,
+    hdr::FORMAT,
+    pfm::FORMAT,
+    jpeg::FORMAT,
+    webp::FORMAT,
+    tiff::FORMAT,
+    bmp::FORMAT,
+    ktx2::FORMAT,
+    tga::FORMAT,
+];
 
-/// Reads a picture as linear RGB. Grey pictures become RGB; 8- and 16-bit values are taken as sRGB; alpha is dropped.
+/// Reads a picture as linear RGB. Grey pictures become RGB; 8- and 16-bit values are taken as sRGB.
 ///
 /// # Errors
 /// The file cannot be read, is of no known format, is damaged, or has more than [`MAX_PIXELS`] pixels.
@@ -108,8 +142,7 @@ pub fn read_image(path: &Path) -> Result<ImageFile, Error> {
 /// # Errors
 /// As [`read_image`].
 pub fn read_image_bytes(name: &str, bytes: &[u8]) -> Result<ImageFile, Error> {
-    let known = |f: &&ImageFormat| f.signatures.iter().any(|s| bytes.starts_with(s));
-    let Some((format, read)) = FORMATS.iter().find(known).and_then(|f| Some((f, f.read?))) else {
+    let Some((format, read)) = format_of(name, bytes).and_then(|f| Some((f, f.read?))) else {
         let names = FORMATS.iter().filter(|f| f.read.is_some()).map(|f| f.name);
         let mut error =
             Diagnostic::error("image::unknown-format", "this is no picture of a known format").in_file(name);
@@ -122,8 +155,20 @@ pub fn read_image_bytes(name: &str, bytes: &[u8]) -> Result<ImageFile, Error> {
     })
 }
 
+/// By the first bytes; a format that has none for itself by the name of the file.
+fn format_of(name: &str, bytes: &[u8]) -> Option<&'static ImageFormat> {
+    let known = |f: &&ImageFormat| f.signatures.iter().any(|s| bytes.starts_with(s));
+    let extension = || name.rsplit_once('.').map(|(_, e)| e.to_lowercase());
+    let named =
+        |f: &&ImageFormat| f.signatures.is_empty() && extension().is_some_and(|e| f.extensions.contains(&e.as_str()));
+    FORMATS.iter().find(known).or_else(|| FORMATS.iter().find(named))
+}
+
+/// Sizes up to this many bytes, unpacked, are believed whatever the file's own.
+const SMALL: u64 = 1 << 26;
+
 /// Refuses sizes that are forged or beyond reason, before memory is reserved. `stored` is what the pixels take when
-/// unpacked and `bytes` the size of the file: no codec here packs 4096 to 1.
+/// unpacked and `bytes` the size of the file: beyond pictures of one colour no codec here packs 4096 to 1.
 fn check_size(width: u64, height: u64, stored: u64, bytes: usize) -> Result<(), String> {
     let pixels = width.saturating_mul(height);
     if pixels == 0 {
@@ -132,7 +177,7 @@ fn check_size(width: u64, height: u64, stored: u64, bytes: usize) -> Result<(), 
     if pixels > MAX_PIXELS {
         return Err(format!("its size is {width}×{height}, more than {MAX_PIXELS} pixels"));
     }
-    if stored > (bytes as u64).saturating_mul(4096) || stored > 16 * MAX_FILE_BYTES {
+    if stored > (bytes as u64).saturating_mul(4096).max(SMALL) || stored > 16 * MAX_FILE_BYTES {
         return Err(format!("its size is said to be {width}×{height}, but it has only {bytes} bytes"));
     }
     Ok(())
