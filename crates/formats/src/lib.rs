@@ -3,6 +3,7 @@
 
 pub mod compare;
 pub mod diagnostic;
+mod files;
 pub mod image;
 mod lines;
 pub mod load;
@@ -11,6 +12,7 @@ mod packed;
 pub mod pbrt;
 pub mod ply;
 pub mod scn;
+mod tessellate;
 
 pub use diagnostic::{Diagnostic, Error, Severity};
 pub use load::{LoadOptions, Loaded, SCENE_FORMATS, load};

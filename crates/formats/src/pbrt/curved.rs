@@ -1,11 +1,10 @@
 //! Shapes that are cut into triangles. Normals lie on pbrt's outer side, that of ∂p/∂u × ∂p/∂v.
 
-use super::params::{Found, Params, single};
-use super::shapes::valid;
+use super::params::{Found, Params};
 use super::{curve, subdivide};
 use crate::ply::PlyMesh;
+use crate::tessellate::{append, grid, revolve};
 use glam::{DVec2, DVec3};
-use std::f64::consts::TAU;
 
 /// Pieces around a full turn.
 const TURN: f64 = 256.0;
@@ -75,52 +74,6 @@ pub(super) fn mesh(name: &str, params: &Params, detail: f64) -> Found<Option<Ply
     Ok(Some(mesh))
 }
 
-/// Turns a profile around z. There are so many pieces around a full turn and along v.
-fn revolve(turn: f64, [around_turn, along]: [f64; 2], profile: &dyn Fn(f64) -> DVec3) -> PlyMesh {
-    let (columns, rows) = (((around_turn * turn / TAU).ceil() as usize).max(3), along as usize);
-    let around = |p: DVec3, phi: f64| {
-        let (sin, cos) = phi.sin_cos();
-        DVec3::new(p.x * cos - p.y * sin, p.x * sin + p.y * cos, p.z)
-    };
-    let normal = |v: f64| {
-        let step = 1e-5;
-        let (a, b) = ((v - step).max(0.0), (v + step).min(1.0));
-        let (pa, pb) = (profile(a), profile(b));
-        // On the axis there is no direction around it; a little beside it there is.
-        let middle = profile(v.clamp(1e-4, 1.0 - 1e-4));
-        DVec3::Z.cross(middle).cross(pb - pa).normalize_or_zero()
-    };
-    grid(columns, rows, |u, v| (around(profile(v), u * turn), around(normal(v), u * turn)))
-}
-
-/// A rectangle of u and v in [0, 1], cut evenly: position and normal at each place.
-fn grid(columns: usize, rows: usize, at: impl Fn(f64, f64) -> (DVec3, DVec3)) -> PlyMesh {
-    let mut mesh = PlyMesh::default();
-    for y in 0..=rows {
-        for x in 0..=columns {
-            let (u, v) = (x as f64 / columns as f64, y as f64 / rows as f64);
-            let (p, n) = at(u, v);
-            mesh.positions.push(single(p).to_array());
-            mesh.normals.push(single(n).to_array());
-            mesh.uvs.push([u as f32, v as f32]);
-        }
-    }
-    let width = columns as u32 + 1;
-    // At a pole, one side of each square is nothing.
-    let has_area = |t: &[u32; 3]| {
-        let [a, b, c] = t.map(|i| DVec3::from_array(mesh.positions[i as usize].map(f64::from)));
-        (b - a).cross(c - a).length() > 1e-9 * (b - a).length().max((c - a).length()).powi(2)
-    };
-    let mut triangles = Vec::with_capacity(2 * rows * columns);
-    for y in 0..rows as u32 {
-        for x in 0..columns as u32 {
-            let i = y * width + x;
-            triangles.extend([[i, i + 1, i + width + 1], [i, i + width + 1, i + width]].into_iter().filter(has_area));
-        }
-    }
-    PlyMesh { triangles, ..mesh }
-}
-
 /// Patches with corners at (u, v) = (0, 0), (1, 0), (0, 1) and (1, 1); flat ones are two triangles.
 fn bilinear(params: &Params, detail: f64) -> Found<PlyMesh> {
     let positions = params.triples("P")?;
@@ -165,14 +118,4 @@ fn bilinear(params: &Params, detail: f64) -> Found<PlyMesh> {
         append(&mut mesh, part);
     }
     Ok(mesh)
-}
-
-/// Adds all of `part`.
-pub(super) fn append(mesh: &mut PlyMesh, part: PlyMesh) {
-    let first = mesh.positions.len() as u32;
-    mesh.positions.extend(part.positions);
-    mesh.normals.extend(part.normals);
-    mesh.uvs.extend(part.uvs);
-    let (triangles, _) = valid(part.triangles.into_iter().map(|t| t.map(|i| first + i)), mesh.positions.len());
-    mesh.triangles.extend(triangles);
 }

@@ -1,6 +1,5 @@
 //! What each directive does.
 
-use super::files::Files;
 use super::lexer::Kind;
 use super::params::{Found, Params};
 use super::picture::Picture;
@@ -10,6 +9,7 @@ use super::textures::Textures;
 use super::tokens::{At, Tokens};
 use super::words;
 use crate::diagnostic::Diagnostic;
+use crate::files::Files;
 use crate::lines::shortened;
 use crate::load::Target;
 use glam::DAffine3;
@@ -235,7 +235,8 @@ impl<'t> Importer<'t> {
         let Some(token) = self.tokens.next_if(Kind::String)? else {
             return Err(Box::new(bad(at, "pbrt::no-name", "which file?").expected("a file name in quotes")));
         };
-        let source = self.files.include(&token.at, self.target)?;
+        let path = self.files.find(&token.at.text(), token.at.source.name());
+        let source = self.files.include(&path, self.target).map_err(|e| Box::new(token.at.tell(*e, "named here")))?;
         self.tokens.include(source, &token.at)
     }
 

@@ -1,9 +1,9 @@
 //! The front door of this format.
 
 use super::directives::Importer;
-use super::files::Files;
 use super::tokens::Tokens;
 use crate::diagnostic::{Diagnostic, Error, SourceFile};
+use crate::files::Files;
 use crate::load::{LoadOptions, SceneFormat, Target};
 use std::path::Path;
 use std::rc::Rc;

@@ -12,7 +12,6 @@
 mod curve;
 mod curved;
 mod directives;
-mod files;
 mod import;
 mod infinite;
 mod lexer;

@@ -2,11 +2,12 @@
 
 use super::curved;
 use super::directives::{Importer, bad, unknown, warning};
-use super::files::first_of;
 use super::params::{Found, Params, single};
 use super::state::Cover;
 use crate::diagnostic::{Diagnostic, SourceFile};
+use crate::files::first_of;
 use crate::ply::{self, PlyMesh};
+use crate::tessellate::valid;
 use glam::{Affine3A, DAffine3, Vec2, Vec3};
 use sunfleck::bsdf::BlackMaterial;
 use sunfleck::math::Motion;
@@ -109,7 +110,7 @@ impl Importer<'_> {
             return Err(params.bad("pbrt::no-file", "a mesh needs a `filename`"));
         };
         let at = params.get("filename").map_or(&params.at, |p| &p.at).clone();
-        let path = self.files.find(name, &at);
+        let path = self.files.find(name, at.source.name());
         let source = match self.files.read(&path) {
             Ok(bytes) => SourceFile::from_bytes(path.display().to_string(), bytes),
             Err(error) => {
@@ -131,28 +132,8 @@ impl Importer<'_> {
         self.named_mesh(mesh, &name)
     }
 
-    /// Moves a mesh into the world, its outer side where pbrt has it: where the normals point if there are any, else
-    /// where the corners turn counter-clockwise in the space of the object.
     fn named_mesh(&mut self, mut mesh: PlyMesh, name: &str) -> Option<Shape> {
-        let world = self.state.world_from_object();
-        let to_world = |p: &[f32; 3]| world.transform_point3(Vec3::from_array(*p).as_dvec3()).as_vec3().to_array();
-        mesh.positions.iter_mut().for_each(|p| *p = to_world(p));
-        turn_normals(&mut mesh.normals, &world, self.state.reverse);
-        if lie_in_surface(&mesh) {
-            self.target.sink.warn("pbrt::normals", || {
-                let message = "the normals of most faces lie in them";
-                warning("pbrt::normals", message).in_file(name).help("the faces' own normals take their place")
-            });
-            mesh.normals.clear();
-        }
-        let inside_out = (world.matrix3.determinant() < 0.0) != self.state.reverse;
-        let PlyMesh { positions, normals, triangles, .. } = &mut mesh;
-        for t in triangles.iter_mut() {
-            let turned = if normals.is_empty() { inside_out } else { against_normals(*t, positions, normals) };
-            if turned {
-                t.swap(1, 2);
-            }
-        }
+        ply::place(&mut mesh, &self.state.world_from_object(), self.state.reverse, name, &mut self.target.sink);
         ply::shape(&mesh, name, &mut self.target.sink)
     }
 
@@ -250,38 +231,9 @@ impl Importer<'_> {
     }
 }
 
-/// Whether the normals of most faces are nearly at right angles to what the corners say: such files exist.
-fn lie_in_surface(mesh: &PlyMesh) -> bool {
-    if mesh.normals.is_empty() {
-        return false;
-    }
-    let lies = |t: &&[u32; 3]| {
-        let [a, b, c] = t.map(|i| Vec3::from_array(mesh.positions[i as usize]));
-        let ng = (b - a).cross(c - a).normalize_or_zero();
-        let n: Vec3 = t.iter().map(|i| Vec3::from_array(mesh.normals[*i as usize])).sum();
-        ng != Vec3::ZERO && ng.dot(n.normalize_or_zero()).abs() < 0.05
-    };
-    2 * mesh.triangles.iter().filter(lies).count() > mesh.triangles.len()
-}
-
 /// In the precision of the scene.
 fn rounded(m: &DAffine3) -> Affine3A {
     Affine3A::from_mat3_translation(m.matrix3.as_mat3(), m.translation.as_vec3())
-}
-
-/// Whether the corners turn against the normals at them.
-fn against_normals(t: [u32; 3], positions: &[[f32; 3]], normals: &[[f32; 3]]) -> bool {
-    let [a, b, c] = t.map(|i| Vec3::from_array(positions[i as usize]));
-    let n: Vec3 = t.iter().map(|i| Vec3::from_array(normals[*i as usize])).sum();
-    (b - a).cross(c - a).dot(n) < 0.0
-}
-
-fn turn_normals(normals: &mut [[f32; 3]], world: &DAffine3, reverse: bool) {
-    let turn = world.matrix3.inverse().transpose() * if reverse { -1.0 } else { 1.0 };
-    for n in normals {
-        let moved = (turn * Vec3::from_array(*n).as_dvec3()).normalize_or_zero();
-        *n = moved.as_vec3().to_array();
-    }
 }
 
 fn triangle_mesh(params: &Params) -> Found<PlyMesh> {
@@ -306,10 +258,4 @@ fn triangle_mesh(params: &Params) -> Found<PlyMesh> {
         triangles,
         bad_faces,
     })
-}
-
-/// The triangles that refer to existing vertices, and how many do not.
-pub(super) fn valid(all: impl Iterator<Item = [u32; 3]>, vertices: usize) -> (Vec<[u32; 3]>, usize) {
-    let (good, bad): (Vec<_>, Vec<_>) = all.partition(|t| t.iter().all(|i| (*i as usize) < vertices));
-    (good, bad.len())
 }

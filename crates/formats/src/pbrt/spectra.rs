@@ -1,9 +1,9 @@
 //! Colours and spectra: how the file gives them, and what they are here.
 
 use super::directives::Importer;
-use super::files::first_of;
 use super::params::{Found, Param, Values};
 use crate::diagnostic::Diagnostic;
+use crate::files::first_of;
 use glam::{DMat3, DVec3, Vec3};
 use sunfleck::spectrum::{Colour, Curve, Illuminant, Ior, NAMED, Named, named};
 
@@ -82,7 +82,7 @@ impl Importer<'_> {
         if let Some(known) = named(name) {
             return Ok(ByName::Known(known));
         }
-        let path = self.files.find(name, &param.at);
+        let path = self.files.find(name, param.at.source.name());
         if self.files.is_missing(&path) {
             let error = param.at.tell(Diagnostic::error("pbrt::spectrum", format!("no spectrum or file `{name}`")), "");
             return Err(Box::new(error.one_of(name, NAMED.iter().map(|n| n.name))));

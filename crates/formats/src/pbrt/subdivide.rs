@@ -1,8 +1,8 @@
 //! `loopsubdiv`: smooth surfaces from coarse triangles (Loop 1987, "Smooth Subdivision Surfaces Based on Triangles").
 
 use super::params::{Found, Params, single};
-use super::shapes::valid;
 use crate::ply::PlyMesh;
+use crate::tessellate::valid;
 use glam::DVec3;
 use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::TAU;

@@ -231,7 +231,7 @@ fn included_mistakes_name_the_included_file_and_outside_is_closed() {
     let main = inner.join("main.pbrt");
     std::fs::write(&main, "Include \"../secret\"\n").unwrap();
     let error = load(std::slice::from_ref(&main), &LoadOptions::default()).unwrap_err();
-    assert_eq!(error.errors[0].code, "pbrt::outside");
+    assert_eq!(error.errors[0].code, "file::outside");
     assert!(load(&[main], &LoadOptions { allow_outside: true, ..LoadOptions::default() }).is_ok());
 }
 

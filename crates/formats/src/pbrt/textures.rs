@@ -1,12 +1,12 @@
 //! `Texture`: named colours and numbers over surfaces.
 
 use super::directives::{Importer, unknown, warning};
-use super::files::first_of;
 use super::params::{Found, Param, Params};
 use super::spectra::Role;
 use super::tokens::At;
 use crate::diagnostic::Diagnostic;
-use crate::image::{RgbImage32, read_image_bytes, srgb_from_linear};
+use crate::files::first_of;
+use crate::image::{RgbImage32, srgb_from_linear};
 use glam::{Affine3A, DAffine3, DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 use sunfleck::bsdf::TextureId;
@@ -243,13 +243,8 @@ impl Importer<'_> {
             return Err(params.bad("pbrt::no-file", "a picture needs a `filename`"));
         };
         let at = params.get(name).map_or(&params.at, |p| &p.at).clone();
-        let path = self.files.find(&file, &at);
-        let read = self.files.read(&path).and_then(|bytes| {
-            let picture = read_image_bytes(&path.display().to_string(), &bytes)?;
-            self.target.input(&bytes);
-            Ok(picture.image)
-        });
-        match read {
+        let path = self.files.find(&file, at.source.name());
+        match self.files.picture(&path, self.target) {
             Ok(image) => Ok(Some((image, at))),
             Err(error) => {
                 let told =

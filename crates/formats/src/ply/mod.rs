@@ -7,9 +7,11 @@
 mod header;
 mod import;
 mod parser;
+mod place;
 #[cfg(test)]
 mod tests;
 mod values;
 
 pub(crate) use import::{FORMAT, shape};
 pub use parser::{PlyMesh, parse};
+pub(crate) use place::place;
