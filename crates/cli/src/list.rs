@@ -9,7 +9,7 @@ use formats::{SCENE_FORMATS, image::FORMATS};
 use serde::Serialize;
 use serde_json::{Value, json};
 use sunfleck::{
-    bsdf::MATERIALS,
+    bsdf::{COVERINGS, MATERIALS, MaterialEntry},
     integrator::{Entry, ParamInfo, REGISTRY},
 };
 
@@ -19,16 +19,21 @@ pub(crate) fn run(args: &ListArgs) -> Result<(), Failure> {
         (Listing::Integrators, true) => {
             console::print_json(&REGISTRY.iter().map(integrator_record).collect::<Vec<_>>())
         }
-        (Listing::Materials, false) => console::print(&aligned(
-            &MATERIALS.iter().map(|m| [m.name, m.about].map(str::to_owned)).collect::<Vec<_>>(),
-        )),
+        (Listing::Materials, false) => {
+            console::print(&aligned(&materials().map(|m| [m.name, m.about].map(str::to_owned)).collect::<Vec<_>>()))
+        }
         (Listing::Materials, true) => {
-            let record = |m: &sunfleck::bsdf::MaterialEntry| json!({ "name": m.name, "about": m.about });
-            console::print_json(&MATERIALS.iter().map(record).collect::<Vec<_>>())
+            let record = |m: &MaterialEntry| json!({ "name": m.name, "about": m.about });
+            console::print_json(&materials().map(record).collect::<Vec<_>>())
         }
         (Listing::Formats, false) => console::print(&aligned(&formats().map(|f| format_row(&f)).collect::<Vec<_>>())),
         (Listing::Formats, true) => console::print_json(&formats().collect::<Vec<_>>()),
     }
+}
+
+/// Models of scattering, then what is laid over others.
+fn materials() -> impl Iterator<Item = &'static MaterialEntry> {
+    MATERIALS.iter().chain(COVERINGS)
 }
 
 /// Settings are indented below their algorithm.

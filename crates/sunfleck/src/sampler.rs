@@ -110,7 +110,7 @@ pub(crate) fn pass_turn(seed: u64, pass: u64) -> f32 {
 
 /// 24 random bits as a float in [0, 1).
 #[inline]
-fn unit(x: u32) -> f32 {
+pub(crate) fn unit(x: u32) -> f32 {
     (x >> 8) as f32 * (1.0 / 16_777_216.0)
 }
 
@@ -150,7 +150,7 @@ fn mix32(mut x: u32) -> u32 {
 
 /// Bijective 64-bit finaliser of `SplitMix64`.
 #[inline]
-fn mix64(mut x: u64) -> u64 {
+pub(crate) fn mix64(mut x: u64) -> u64 {
     x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     x ^ (x >> 31)

@@ -129,7 +129,7 @@ const REFLECT: f32 = 0.25;
 /// Probability with which [`walk_evenly`] takes the way `s` of two at a delta surface.
 #[inline]
 pub fn way_prob(s: &Scattered) -> f32 {
-    if s.eta == 1.0 { REFLECT } else { 1.0 - REFLECT }
+    if s.crosses { 1.0 - REFLECT } else { REFLECT }
 }
 
 fn walk_by<const EVENLY: bool>(

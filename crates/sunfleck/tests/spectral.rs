@@ -148,7 +148,7 @@ fn refracted(ior: Ior, nm: f32) -> (f32, bool) {
     let textures = [Texture::Constant(Rgb::ONE.into())];
     let white = sunfleck::scene::TextureId(0);
     let lambda = Wavelengths::Spectral(Vec4::new(nm, 500.0, 600.0, 700.0));
-    let at = Lookup { textures: &textures, uv: Vec2::ZERO, p: Vec3::ZERO, lambda };
+    let at = Lookup::new(&textures, Vec2::ZERO, Vec3::ZERO, lambda);
     let glass = Material::from(DielectricMaterial { eta: ior, reflectance: white, transmittance: white }).resolve(&at);
     let wo = Local(Vec3::new(0.75f32.sqrt(), 0.0, 0.5));
     let s = glass.sample(wo, 0.999, Vec2::ZERO, Transport::Radiance).expect("most of it passes");

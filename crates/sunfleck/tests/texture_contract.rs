@@ -1,12 +1,12 @@
 //! What a texture promises: a smooth picture through its pixels, with the mean of its pixels.
-use glam::{Affine3A, Vec2, Vec3};
+use glam::{Affine2, Affine3A, Vec2, Vec3, Vec4};
 use sunfleck::{
     sampler::{Domain, Sampler},
     scene::{SceneBuilder, SceneError},
     spectrum::{Rgb, Wavelengths},
     texture::{
-        Checkerboard, Dots, ImageTexture, Lookup, Mapped, Mix, Noise, NoiseKind, Product, Texture, TextureId, UvMap,
-        Wrap,
+        Channel, Checkerboard, Dots, ImageTexture, Lookup, Mapped, Mix, Noise, NoiseKind, Product, Scalar, Texture,
+        TextureId, Threshold, UvMap, UvSet, VertexAttributes, VertexColour, Wrap,
     },
 };
 
@@ -76,7 +76,7 @@ fn far_and_broken_coordinates_give_a_colour_of_the_picture() {
 
 /// The values of the last of these textures at a place, in RGB.
 fn look(textures: &[Texture], uv: Vec2) -> Rgb {
-    let at = Lookup { textures, uv, p: Vec3::new(uv.x, uv.y, 0.3), lambda: Wavelengths::Rgb };
+    let at = Lookup::new(textures, uv, Vec3::new(uv.x, uv.y, 0.3), Wavelengths::Rgb);
     at.spectrum(TextureId(textures.len() as u32 - 1)).to_rgb(Wavelengths::Rgb)
 }
 
@@ -98,7 +98,10 @@ fn textures_made_of_others_are_what_their_parts_say() {
     let mix = Mix { from: both[0], to: both[1], amount: TextureId(2) };
     let mixed = [with(amount), vec![Texture::Mix(mix)]].concat();
     let shown = image(Wrap::Repeat);
-    let moved = vec![Texture::Image(shown.clone()), Texture::Mapped(Mapped { of: TextureId(0), map })];
+    let moved = vec![
+        Texture::Image(shown.clone()),
+        Texture::Mapped(Mapped { of: TextureId(0), map: map.into(), set: UvSet::First }),
+    ];
     for uv in places() {
         let is_near = |a: Rgb, b: Rgb| assert!((a - b).abs().max_element() < 1e-5, "{uv}: {a} {b}");
         is_near(look(&with(Texture::Product(Product { of: both })), uv), red * blue);
@@ -148,4 +151,45 @@ fn a_texture_made_of_a_later_one_is_refused() {
     builder.texture(Texture::Product(Product { of: [TextureId(0), TextureId(1)] }));
     builder.constant(Rgb::ONE);
     assert!(matches!(builder.build(), Err(SceneError::Missing { what: "texture", .. })));
+}
+
+#[test]
+fn numbers_are_the_scenes_own_and_colours_are_spectra() {
+    let picture = image(Wrap::Repeat);
+    let textures = [
+        Texture::Image(picture.clone()),
+        Texture::Channel(Channel { of: TextureId(0), channel: 1 }),
+        Texture::Threshold(Threshold { of: TextureId(1), cutoff: 2.0 }),
+    ];
+    let lambda = Wavelengths::Spectral(Vec4::new(450.0, 500.0, 600.0, 700.0));
+    for uv in places() {
+        let at = Lookup::new(&textures, uv, Vec3::ZERO, lambda);
+        let want = picture.eval(uv);
+        assert_eq!(at.rgb(TextureId(0)), want);
+        assert_eq!(at.scalar(Scalar::Texture(TextureId(1))), want.y);
+        assert_eq!(at.scalar(Scalar::Texture(TextureId(2))), f32::from(want.y >= 2.0));
+        assert_eq!(at.scalar(0.25.into()), 0.25);
+    }
+}
+
+#[test]
+fn coordinates_turn_and_come_from_either_set_and_vertices_bring_colours() {
+    let picture = image(Wrap::Repeat);
+    let turn = Affine2::from_scale_angle_translation(Vec2::new(2.0, 0.5), 0.7, Vec2::new(0.1, -0.3));
+    let mapped = |set| Texture::Mapped(Mapped { of: TextureId(0), map: turn, set });
+    let textures = [
+        Texture::Image(picture.clone()),
+        mapped(UvSet::First),
+        mapped(UvSet::Second),
+        Texture::Vertex(VertexColour::Rgb),
+        Texture::Vertex(VertexColour::Alpha),
+    ];
+    for uv in places() {
+        let attributes = VertexAttributes { uv2: 0.5 - uv, colour: Vec4::new(uv.x, 0.2, 0.3, uv.y) };
+        let at = Lookup { attributes, ..Lookup::new(&textures, uv, Vec3::ZERO, Wavelengths::Rgb) };
+        assert_eq!(at.rgb(TextureId(1)), picture.eval(turn.transform_point2(uv)));
+        assert_eq!(at.rgb(TextureId(2)), picture.eval(turn.transform_point2(0.5 - uv)));
+        assert_eq!(at.rgb(TextureId(3)), Rgb::new(uv.x, 0.2, 0.3));
+        assert_eq!(at.rgb(TextureId(4)), Rgb::splat(uv.y));
+    }
 }

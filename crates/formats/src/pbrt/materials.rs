@@ -165,14 +165,14 @@ impl Importer<'_> {
             transmittance: self.spectrum(params, &["Kt"], Vec3::ONE)?,
         };
         let alpha = self.alpha(params, ["roughness", "uroughness", "vroughness"], 0.0)?;
-        Ok(if alpha > 0.0 { RoughDielectricMaterial { glass, alpha }.into() } else { glass.into() })
+        Ok(if alpha > 0.0 { RoughDielectricMaterial { glass, alpha: alpha.into() }.into() } else { glass.into() })
     }
 
     fn conductor(&mut self, is_version_3: bool, params: &Params) -> Found<Material> {
         let alpha =
             self.alpha(params, ["roughness", "uroughness", "vroughness"], if is_version_3 { 0.01 } else { 0.0 })?;
         let metal = self.metal(params, ["eta", "k", "reflectance"])?;
-        Ok(if alpha > 0.0 { RoughConductorMaterial { metal, alpha }.into() } else { metal.into() })
+        Ok(if alpha > 0.0 { RoughConductorMaterial { metal, alpha: alpha.into() }.into() } else { metal.into() })
     }
 
     /// A metal by its indices or by its reflectance along the normal.
@@ -248,7 +248,7 @@ impl Importer<'_> {
                 ]);
                 params.ignore(&["thickness", "g", "albedo", "maxdepth", "nsamples"]);
                 let metal = self.metal(params, ["conductor.eta", "conductor.k", "reflectance"])?;
-                if alpha > 0.0 { RoughConductorMaterial { metal, alpha }.into() } else { metal.into() }
+                if alpha > 0.0 { RoughConductorMaterial { metal, alpha: alpha.into() }.into() } else { metal.into() }
             }),
             "subsurface" | "kdsubsurface" => ("a matt surface", {
                 params.ignore(&["mfp", "eta", "g", "sigma_a", "sigma_s", "scale", "name", "roughness", "uroughness"]);

@@ -11,7 +11,7 @@ use glam::{Affine3A, DAffine3, DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 use sunfleck::bsdf::TextureId;
 use sunfleck::texture::{
-    Checkerboard, Dots, ImageTexture, Mapped, Mix, Noise, NoiseKind, Product, Texture, UvMap, Wrap,
+    Checkerboard, Dots, ImageTexture, Mapped, Mix, Noise, NoiseKind, Product, Texture, UvMap, UvSet, Wrap,
 };
 
 const CLASSES: [&str; 14] = [
@@ -150,7 +150,7 @@ impl Importer<'_> {
         // Centres of the pixels are the corners.
         let of = self.target.builder().texture(Texture::Image(image));
         let map = UvMap { scale: 0.5 * map.scale, offset: 0.25 + 0.5 * map.offset };
-        Ok(self.made(Texture::Mapped(Mapped { of, map }), mean))
+        Ok(self.made(Texture::Mapped(Mapped { of, map: map.into(), set: UvSet::First }), mean))
     }
 
     fn noise(&mut self, class: &str, params: &Params) -> Found<Made> {
@@ -234,7 +234,7 @@ impl Importer<'_> {
         if map == UvMap::default() {
             return Ok(Made { id: of, mean });
         }
-        Ok(self.made(Texture::Mapped(Mapped { of, map }), mean))
+        Ok(self.made(Texture::Mapped(Mapped { of, map: map.into(), set: UvSet::First }), mean))
     }
 
     /// Reads a picture that a parameter names. `None` with a warning if that fails.

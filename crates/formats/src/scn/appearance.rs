@@ -87,7 +87,7 @@ fn glass(p: &mut Properties, default_ior: f32) -> DielectricMaterial {
 
 fn rough_glass(p: &mut Properties) -> Material {
     let roughness = p.unit("roughness", 0.2);
-    RoughDielectricMaterial { glass: glass(p, GLASS_IOR), alpha: roughness * roughness }.into()
+    RoughDielectricMaterial { glass: glass(p, GLASS_IOR), alpha: (roughness * roughness).into() }.into()
 }
 
 fn conductor(p: &mut Properties) -> Material {

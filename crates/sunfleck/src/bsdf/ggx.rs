@@ -6,10 +6,10 @@ use crate::math::Local;
 use glam::{Vec2, Vec3};
 use std::f32::consts::{FRAC_1_PI, TAU};
 
-/// Isotropic GGX (Trowbridge–Reitz) landscape with Smith's masking.
+/// GGX (Trowbridge–Reitz) landscape with Smith's masking, its slopes along the two tangents of like size or not.
 #[derive(Clone, Copy, Debug)]
 pub struct Ggx {
-    alpha: f32,
+    alpha: Vec2,
 }
 
 /// A mirror reflection from `wo` to `wi` by the landscape, but for Fresnel's factor.
@@ -30,11 +30,16 @@ impl Ggx {
     /// A landscape of roughness `alpha`, kept within [`Ggx::MIN_ALPHA`] and 1.
     #[inline]
     pub fn new(alpha: f32) -> Self {
-        Self { alpha: alpha.clamp(Self::MIN_ALPHA, 1.0) }
+        Self::aligned(alpha, alpha)
     }
-    /// Roughness: about the slope of a typical microfacet.
+    /// A landscape of roughness `u` along the first tangent and `v` along the second, both kept as in [`Ggx::new`].
     #[inline]
-    pub fn alpha(self) -> f32 {
+    pub fn aligned(u: f32, v: f32) -> Self {
+        Self { alpha: Vec2::new(u, v).clamp(Vec2::splat(Self::MIN_ALPHA), Vec2::ONE) }
+    }
+    /// Roughness along the two tangents: about the slope of a typical microfacet.
+    #[inline]
+    pub fn alpha(self) -> Vec2 {
         self.alpha
     }
 
@@ -46,17 +51,18 @@ impl Ggx {
         if z <= 0.0 {
             return 0.0;
         }
-        let a2 = self.alpha * self.alpha;
-        let q = (x * x + y * y) / a2 + z * z;
-        FRAC_1_PI / (a2 * q * q)
+        let a = self.alpha;
+        let (x, y) = (x / a.x, y / a.y);
+        let q = x * x + y * y + z * z;
+        FRAC_1_PI / (a.x * a.y * q * q)
     }
-    /// Length of `w` with its horizontal part scaled by alpha: `|cos θ|·(1 + 2Λ)` with Smith's Λ (Heitz 2014,
+    /// Length of `w` with its horizontal parts scaled by alpha: `|cos θ|·(1 + 2Λ)` with Smith's Λ (Heitz 2014,
     /// "Understanding the Masking-Shadowing Function", eq. 72). In these terms nothing below divides by a grazing cosine.
     #[inline]
     fn stretched(self, w: Local) -> f32 {
-        let a2 = self.alpha * self.alpha;
-        let c = w.cos_theta();
-        (a2 + (1.0 - a2) * c * c).sqrt()
+        let Vec3 { x, y, z } = w.0;
+        let (x, y) = (self.alpha.x * x, self.alpha.y * y);
+        (x * x + y * y + z * z).sqrt()
     }
     /// Fraction of the microfacets facing `w` that `w` sees: `1/(1 + Λ)` (Heitz 2014, eq. 57).
     #[inline]
@@ -75,13 +81,13 @@ impl Ggx {
     #[inline]
     pub fn sample_visible(self, wo: Local, u: Vec2) -> Local {
         let a = self.alpha;
-        let w = Vec3::new(a * wo.0.x, a * wo.0.y, wo.0.z).normalize();
+        let w = Vec3::new(a.x * wo.0.x, a.y * wo.0.y, wo.0.z).normalize();
         // A uniform point of the cap z > −w.z of the unit sphere, by its distance h from the top.
         let h = (1.0 + w.z) * u.y;
         let r = (h * (2.0 - h)).max(0.0).sqrt();
         let (sin, cos) = (TAU * u.x).sin_cos();
         let half = Vec3::new(r * cos, r * sin, 1.0 - h) + w;
-        Local(Vec3::new(a * half.x, a * half.y, half.z.max(f32::MIN_POSITIVE)).normalize())
+        Local(Vec3::new(a.x * half.x, a.y * half.y, half.z.max(f32::MIN_POSITIVE)).normalize())
     }
 
     /// The reflection from `wo` to `wi`, both above the surface; `None` otherwise. Masking and shadowing are

@@ -5,12 +5,15 @@
 //! To add a model: write `bsdf/<name>.rs` with its material and its closure (implementing [`Scatter`] and [`Model`]), and
 //! add one line to `models!` below; the contract tests run over the whole list.
 //!
+//! Materials may also be laid over others, to choose between them, hide them or bend their normals: see [`cover`].
+//!
 //! The mathematics that models share is in [`fresnel`] (how much a boundary reflects), [`ggx`] (rough boundaries) and
 //! `cosine_lobe` (Phong's highlights).
 mod black;
 mod conductor;
 mod cook_torrance;
 mod cosine_lobe;
+pub mod cover;
 mod dielectric;
 mod diffuse;
 pub mod fresnel;
@@ -20,6 +23,8 @@ mod nrenderer_phong;
 mod phong;
 mod rough_conductor;
 mod rough_dielectric;
+mod roughness;
+mod thin_dielectric;
 
 pub use black::{Black, BlackMaterial};
 pub use conductor::{Conductor, ConductorMaterial};
@@ -31,8 +36,14 @@ pub use nrenderer_phong::{NRendererPhong, NRendererPhongMaterial};
 pub use phong::{Phong, PhongMaterial};
 pub use rough_conductor::{RoughConductor, RoughConductorMaterial};
 pub use rough_dielectric::{RoughDielectric, RoughDielectricMaterial};
+pub use roughness::Roughness;
+pub use thin_dielectric::{ThinDielectric, ThinDielectricMaterial};
 
-pub use crate::texture::{Lookup, TextureId};
+pub use crate::texture::{Lookup, Scalar, TextureId};
+pub use cover::{
+    BumpMapMaterial, COVERINGS, Covering, MaskMaterial, MaterialId, MixMaterial, NormalMapMaterial, NullMaterial,
+    TwoSidedMaterial,
+};
 
 use crate::{math::Local, spectrum::Spectrum};
 use glam::Vec2;
@@ -107,6 +118,10 @@ pub trait Model {
     fn is_dispersive(&self) -> bool {
         false
     }
+    /// Whether it asks where the texture coordinates grow.
+    fn is_aligned(&self) -> bool {
+        false
+    }
 }
 
 /// Name and purpose of a material model, for `sunfleck list materials` and the manual.
@@ -123,7 +138,11 @@ macro_rules! models {
     ($($closure:ident / $material:ident),* $(,)?) => {
         /// One of the material models of this room.
         #[derive(Clone, Debug)]
-        pub enum Material { $(#[doc = concat!("See [`", stringify!($material), "`].")] $closure($material)),* }
+        pub enum Material {
+            $(#[doc = concat!("See [`", stringify!($material), "`].")] $closure($material),)*
+            /// Something laid over other materials.
+            Covering(Covering),
+        }
         /// One of the closures of this room.
         #[derive(Clone, Copy, Debug)]
         pub enum Bsdf { $(#[doc = concat!("See [`", stringify!($closure), "`].")] $closure($closure)),* }
@@ -133,22 +152,31 @@ macro_rules! models {
         $(impl From<$material> for Material { fn from(m: $material) -> Self { Self::$closure(m) } })*
         $(impl From<$closure> for Bsdf { fn from(b: $closure) -> Self { Self::$closure(b) } })*
         impl Material {
-            /// The closure at a hit.
+            /// The closure at a hit; black for coverings, which scatter nothing themselves.
             #[inline]
             pub fn resolve(&self, at: &Lookup) -> Bsdf {
-                match self { $(Self::$closure(m) => m.resolve(at).into()),* }
+                match self { $(Self::$closure(m) => m.resolve(at).into(),)* Self::Covering(_) => Black.into() }
+            }
+            /// Whether [`Material::resolve`] says all about it, in any frame around the normal.
+            #[inline]
+            pub(crate) fn is_plain(&self) -> bool {
+                match self { $(Self::$closure(m) => !m.is_aligned(),)* Self::Covering(_) => false }
             }
             /// The model's word.
             pub fn name(&self) -> &'static str {
-                match self { $(Self::$closure(_) => <$material as Model>::NAME),* }
+                match self { $(Self::$closure(_) => <$material as Model>::NAME,)* Self::Covering(c) => c.name() }
             }
             /// The textures it refers to.
             pub fn textures(&self) -> Vec<TextureId> {
-                match self { $(Self::$closure(m) => m.textures()),* }
+                match self { $(Self::$closure(m) => m.textures(),)* Self::Covering(c) => c.textures() }
+            }
+            /// The materials that it is laid over.
+            pub fn parts(&self) -> Vec<MaterialId> {
+                if let Self::Covering(c) = self { c.parts() } else { Vec::new() }
             }
             /// Whether it bends each wavelength differently.
             pub fn is_dispersive(&self) -> bool {
-                match self { $(Self::$closure(m) => m.is_dispersive()),* }
+                match self { $(Self::$closure(m) => m.is_dispersive(),)* Self::Covering(_) => false }
             }
         }
         impl Scatter for Bsdf {
@@ -185,6 +213,7 @@ models![
     Mirror / MirrorMaterial,
     Dielectric / DielectricMaterial,
     RoughDielectric / RoughDielectricMaterial,
+    ThinDielectric / ThinDielectricMaterial,
     Conductor / ConductorMaterial,
     RoughConductor / RoughConductorMaterial,
     Phong / PhongMaterial,

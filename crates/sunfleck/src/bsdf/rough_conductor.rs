@@ -1,6 +1,6 @@
 //! Brushed, sand-blasted or worn metal: a GGX landscape of metal facets.
 use super::{
-    Bsdf, BsdfSample, Conductor, ConductorMaterial, Lookup, Model, Scatter, TextureId, Transport,
+    Bsdf, BsdfSample, Conductor, ConductorMaterial, Lookup, Model, Roughness, Scatter, TextureId, Transport,
     ggx::{Ggx, reflect_up},
     seen_from,
 };
@@ -14,7 +14,7 @@ pub struct RoughConductorMaterial {
     /// The metal.
     pub metal: ConductorMaterial,
     /// GGX roughness in [0, 1]. Below [`Ggx::MIN_ALPHA`] the surface is taken as smooth.
-    pub alpha: f32,
+    pub alpha: Roughness,
 }
 
 impl Model for RoughConductorMaterial {
@@ -25,14 +25,16 @@ impl Model for RoughConductorMaterial {
     #[inline]
     fn resolve(&self, at: &Lookup) -> Bsdf {
         let metal = self.metal.resolve(at);
-        if self.alpha >= Ggx::MIN_ALPHA {
-            RoughConductor { metal, ggx: Ggx::new(self.alpha) }.into()
-        } else {
-            metal.into()
+        match self.alpha.ggx(at) {
+            Some(ggx) => RoughConductor { metal, ggx }.into(),
+            None => metal.into(),
         }
     }
     fn textures(&self) -> Vec<TextureId> {
-        self.metal.textures()
+        self.metal.textures().into_iter().chain(self.alpha.textures()).collect()
+    }
+    fn is_aligned(&self) -> bool {
+        self.alpha.is_aligned()
     }
 }
 

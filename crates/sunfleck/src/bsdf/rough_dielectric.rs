@@ -1,6 +1,6 @@
 //! Ground or frosted glass: a GGX landscape of clear facets.
 use super::{
-    Bsdf, BsdfSample, Dielectric, DielectricMaterial, Lookup, Model, Scatter, TextureId, Transport, fresnel,
+    Bsdf, BsdfSample, Dielectric, DielectricMaterial, Lookup, Model, Roughness, Scatter, TextureId, Transport, fresnel,
     ggx::{Ggx, reflect_up},
     seen_from,
 };
@@ -15,7 +15,7 @@ pub struct RoughDielectricMaterial {
     /// GGX roughness in [0, 1]. The boundary is taken as smooth below [`Ggx::MIN_ALPHA`], and also where the blur it
     /// gives to refracted light, `alpha·|eta − 1|`, is below 10⁻⁴ (nearly equal indices: f32 could not tell which facet
     /// had bent the light).
-    pub alpha: f32,
+    pub alpha: Roughness,
 }
 
 impl Model for RoughDielectricMaterial {
@@ -26,14 +26,17 @@ impl Model for RoughDielectricMaterial {
     #[inline]
     fn resolve(&self, at: &Lookup) -> Bsdf {
         let glass = self.glass.resolve(at);
-        if self.alpha >= Ggx::MIN_ALPHA && self.alpha.min(1.0) * (glass.eta.hero() - 1.0).abs() >= 1e-4 {
-            RoughDielectric { glass, ggx: Ggx::new(self.alpha) }.into()
-        } else {
-            glass.into()
+        let blurs = |ggx: &Ggx| ggx.alpha().max_element() * (glass.eta.hero() - 1.0).abs() >= 1e-4;
+        match self.alpha.ggx(at).filter(blurs) {
+            Some(ggx) => RoughDielectric { glass, ggx }.into(),
+            None => glass.into(),
         }
     }
     fn textures(&self) -> Vec<TextureId> {
-        self.glass.textures()
+        self.glass.textures().into_iter().chain(self.alpha.textures()).collect()
+    }
+    fn is_aligned(&self) -> bool {
+        self.alpha.is_aligned()
     }
     fn is_dispersive(&self) -> bool {
         self.glass.is_dispersive()

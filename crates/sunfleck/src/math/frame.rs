@@ -60,6 +60,14 @@ impl Frame {
             n,
         }
     }
+    /// The frame of the unit vector `n` whose first tangent is nearest to `along`; any tangent if that is parallel to `n`.
+    #[inline]
+    pub fn along(n: Vec3, along: Vec3) -> Self {
+        match (along - n * n.dot(along)).try_normalize() {
+            Some(s) if s.dot(n).abs() < 1e-3 => Self { s, t: n.cross(s), n },
+            _ => Self::from_normal(n),
+        }
+    }
     /// World to local.
     #[inline]
     pub fn to_local(&self, v: Vec3) -> Local {

@@ -139,7 +139,7 @@ struct Deposit {
 impl Visit for Deposit {
     #[inline]
     fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
-        if self.keep.keeps(a) && a.at.is_connectible() {
+        if self.keep.keeps(a) && a.at.gathers {
             self.catch.positions.push(a.at.p);
             let scatterings = a.scatterings.min(u32::from(u16::MAX)) as u16;
             self.catch.photons.push(Photon { flux: a.beta, wi: a.at.wo, scatterings, dispersed: a.dispersed });

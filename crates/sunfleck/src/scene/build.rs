@@ -5,7 +5,7 @@ use super::{
     moving::{Emitters, Geometry, Moving, Place, Places},
 };
 use crate::{
-    bsdf::Material,
+    bsdf::{Material, cover::is_porous},
     camera::{Camera, Perspective, Project, View},
     light::{Light, Sides, Surroundings},
     math::Motion,
@@ -180,7 +180,8 @@ impl SceneBuilder {
             (Geometry::Still(Arc::new(moment.with_lights(&lights, Vec::new(), &around))), around)
         };
         let Self { textures, materials, camera_to, .. } = self;
-        Ok(Scene { textures, materials, objects, lights, geometry, camera, camera_to, around })
+        let porous = porous(&materials);
+        Ok(Scene { textures, materials, porous, objects, lights, geometry, camera, camera_to, around })
     }
 
     fn check(&self) -> Result<(), SceneError> {
@@ -192,6 +193,10 @@ impl SceneBuilder {
         }
         for t in self.materials.iter().flat_map(Material::textures) {
             check("texture", t.0, self.textures.len())?;
+        }
+        // A material is laid over earlier ones, so that finding what is met comes to an end.
+        for (count, m) in self.materials.iter().enumerate() {
+            m.parts().iter().try_for_each(|part| check("material", part.0, count))?;
         }
         // A texture is made of earlier ones, so that looking one up comes to an end.
         for (count, t) in self.textures.iter().enumerate() {
@@ -229,6 +234,15 @@ impl SceneBuilder {
         }
         Ok((places, emitters))
     }
+}
+
+/// Whether rays may pass each material; empty if they pass none.
+fn porous(materials: &[Material]) -> Vec<bool> {
+    let mut porous = Vec::with_capacity(materials.len());
+    for m in materials {
+        porous.push(is_porous(m, &porous));
+    }
+    if porous.contains(&true) { porous } else { Vec::new() }
 }
 
 impl From<Quality> for accel::Quality {

@@ -1,6 +1,6 @@
 //! A point where a path meets a surface, and everything that can be asked there.
 use crate::{
-    bsdf::{Bsdf, BsdfSample, Scatter, Transport},
+    bsdf::{Bsdf, BsdfSample, Scatter, Transport, cover::Covered},
     light::{EmitterHit, LightEnd, LightId},
     math::{Frame, Local, Ray, offset_origin},
     shape::SurfacePoint,
@@ -27,6 +27,9 @@ pub struct Interaction {
     pub uv: Vec2,
     /// Scattering here.
     pub bsdf: Bsdf,
+    /// Photons are kept here. Where materials are mixed, that is so wherever one of them has a density, even if this path
+    /// met another.
+    pub gathers: bool,
     /// The light on this surface.
     pub light: Option<LightId>,
 }
@@ -44,6 +47,8 @@ pub struct Scattered {
     pub delta: bool,
     /// η of the new side over η of the old one.
     pub eta: f32,
+    /// It goes on behind the surface.
+    pub crosses: bool,
     /// Right for the hero alone: see [`crate::spectrum`].
     pub disperses: bool,
 }
@@ -51,15 +56,20 @@ pub struct Scattered {
 impl Interaction {
     #[inline(always)]
     pub(super) fn new(s: &SurfacePoint, wo: Vec3, distance: f32, bsdf: Bsdf, light: Option<LightId>) -> Self {
-        let frame = Frame::from_normal(s.n);
-        Self { p: s.p, p_error: s.p_error, ng: s.ng, frame, wo, distance, uv: s.uv, bsdf, light }
+        let covered = Covered { bsdf, frame: Frame::from_normal(s.n), gathers: bsdf.is_connectible() };
+        Self::covered(s, wo, distance, &covered, light)
+    }
+    #[inline(always)]
+    pub(super) fn covered(s: &SurfacePoint, wo: Vec3, distance: f32, by: &Covered, light: Option<LightId>) -> Self {
+        let Covered { bsdf, frame, gathers } = *by;
+        Self { p: s.p, p_error: s.p_error, ng: s.ng, frame, wo, distance, uv: s.uv, bsdf, gathers, light }
     }
     /// The emitting surface that was met.
     #[inline]
     pub fn emitter_hit(&self) -> EmitterHit {
         EmitterHit { p: self.p, ng: self.ng }
     }
-    /// Whether photons may be stored and lights connected here.
+    /// Whether lights and paths may be connected and photons be gathered here.
     #[inline]
     pub fn is_connectible(&self) -> bool {
         self.bsdf.is_connectible()
@@ -135,7 +145,8 @@ impl Interaction {
         };
         let weight = s.weight * adjoint;
         let BsdfSample { pdf, delta, eta, disperses, .. } = s;
-        weight.is_finite().then_some(Scattered { wi, weight, pdf, delta, eta, disperses })
+        let crosses = lo.cos_theta() * s.wi.cos_theta() < 0.0;
+        weight.is_finite().then_some(Scattered { wi, weight, pdf, delta, eta, crosses, disperses })
     }
     #[inline]
     fn cos_factor(&self, wi: Vec3, mode: Transport) -> f32 {

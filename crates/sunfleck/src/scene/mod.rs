@@ -5,6 +5,7 @@ mod build;
 mod interaction;
 mod moment;
 mod moving;
+mod surfaces;
 mod world;
 
 pub use build::{Quality, SceneBuilder, SceneError, SurfaceDef};
@@ -22,11 +23,7 @@ use crate::{
 use glam::Vec3;
 use moving::Geometry;
 
-pub use crate::bsdf::TextureId;
-
-/// Handle of a material of the scene.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct MaterialId(pub u32);
+pub use crate::bsdf::{MaterialId, TextureId};
 
 /// Handle of an object that instances refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -50,6 +47,8 @@ pub const MID_SHUTTER: f32 = 0.5;
 pub struct Scene {
     textures: Vec<Texture>,
     materials: Vec<Material>,
+    /// Whether rays may pass it, by material; empty if no material has holes.
+    porous: Vec<bool>,
     objects: Vec<Vec<Surface>>,
     /// Those that stand still.
     lights: Vec<Light>,

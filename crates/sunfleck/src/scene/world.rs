@@ -1,25 +1,19 @@
 //! The scene as one pass sees it: at one set of wavelengths and at one time.
-use super::{
-    Interaction, Scene, Surface,
-    moment::{Moment, Placement},
-};
+use super::{Interaction, Scene, moment::Moment};
 use crate::{
-    bsdf::Lookup,
     camera::{Camera, Project},
     light::{Emitter, LiSample, Light, LightId, Surroundings},
-    math::Ray,
-    shape::SurfacePoint,
     spectrum::{Spectrum, Wavelengths},
 };
-use glam::{Mat3A, Vec2, Vec3};
+use glam::{Vec2, Vec3};
 use std::{borrow::Cow, sync::Arc};
 
 /// What algorithms ask: rays, lights, materials.
 pub struct World<'s> {
-    scene: &'s Scene,
-    around: Surroundings,
+    pub(super) scene: &'s Scene,
+    pub(super) around: Surroundings,
     time: f32,
-    moment: Arc<Moment>,
+    pub(super) moment: Arc<Moment>,
     camera: Cow<'s, Camera>,
 }
 
@@ -74,34 +68,6 @@ impl<'s> World<'s> {
         &self.around
     }
 
-    /// The first surface along `ray` (unit direction), materials resolved.
-    #[inline(always)]
-    pub fn intersect(&self, ray: &Ray) -> Option<Interaction> {
-        let hit = self.moment.bvh.closest(ray)?;
-        let (surface, point) = self.locate(&hit, ray);
-        let at = Lookup { textures: &self.scene.textures, uv: point.uv, p: point.p, lambda: self.around.lambda };
-        let bsdf = self.scene.materials[surface.material.0 as usize].resolve(&at);
-        Some(Interaction::new(&point, -ray.d, hit.t, bsdf, surface.light))
-    }
-    /// The surface that was hit and the point on it, in world space.
-    #[inline(always)]
-    fn locate(&self, hit: &accel::Hit, ray: &Ray) -> (&Surface, SurfacePoint) {
-        let at = ray.o + hit.t * ray.d;
-        if hit.instance == accel::Hit::NO_INSTANCE {
-            let surface = &self.moment.surfaces[hit.geometry as usize];
-            return (surface, surface.shape.surface_point(hit, at));
-        }
-        let placed = &self.moment.placements[hit.instance as usize];
-        let surface = &self.scene.objects[placed.object.0 as usize][hit.geometry as usize];
-        let local = surface.shape.surface_point(hit, placed.object_from_world.transform_point3(at));
-        (surface, placed.to_world(&local))
-    }
-    /// Whether something lies within the reach of `ray`.
-    #[inline]
-    pub fn occluded(&self, ray: &Ray) -> bool {
-        self.moment.bvh.occluded(ray)
-    }
-
     /// The light with handle `id`.
     #[inline]
     pub fn light(&self, id: LightId) -> &Light {
@@ -149,22 +115,5 @@ impl<'s> World<'s> {
             let pdf_direct = light.pdf_li(from, d, None) * self.light_prob(id);
             Sky { light: id, le: light.le_escaped(d, self.around.lambda), pdf_direct }
         })
-    }
-}
-
-impl Placement {
-    fn to_world(&self, s: &SurfacePoint) -> SurfacePoint {
-        let m = &self.world_from_object;
-        let abs = |m: &Mat3A| Mat3A::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
-        let (forth, back) = (abs(&m.matrix3), abs(&self.object_from_world.matrix3));
-        // Error of the moved point: the old error moved, plus the roundings of the transform itself, and of the inverse
-        // transform that rays leaving this point go through.
-        let p = m.transform_point3(s.p);
-        let there = forth * s.p.abs() + Vec3::from(m.translation).abs();
-        let back_again = forth * (back * p.abs() + Vec3::from(self.object_from_world.translation).abs());
-        let rounding = crate::shape::gamma(4.0) * (there + back_again);
-        let ng = (self.normal_from_object * s.ng).normalize_or(Vec3::Z);
-        let n = (self.normal_from_object * s.n).normalize_or(ng);
-        SurfacePoint { p, p_error: 1.01 * (forth * s.p_error) + rounding, ng, n, uv: s.uv }
     }
 }

@@ -1,18 +1,21 @@
 //! Indexed triangles with optional vertex normals and texture coordinates.
-use super::{AreaSample, SurfacePoint, gamma, plane_error};
+use super::{AreaSample, Attributes, SurfacePoint, gamma, plane_error};
 use crate::math::{Discrete, warp::square_to_triangle};
 use accel::Hit;
 use glam::{Affine3A, Vec2, Vec3};
+use std::ops::{Add, Mul};
 
 /// Triangles over shared vertices; the outer side is where vertices turn counter-clockwise.
 #[derive(Clone, Debug, Default)]
 pub struct Mesh {
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
-    uvs: Vec<Vec2>,
+    pub(super) uvs: Vec<Vec2>,
     indices: Vec<[u32; 3]>,
     /// Triangle areas, for drawing points.
     areas: Discrete,
+    /// If there is more.
+    pub(super) attributes: Option<Box<Attributes>>,
 }
 
 /// Why vertices and indices do not make a mesh.
@@ -66,7 +69,7 @@ impl Mesh {
             let [a, b, c] = t.map(|i| positions[i as usize]);
             0.5 * (b - a).cross(c - a).length()
         }));
-        Ok(Self { positions, normals, uvs, indices, areas })
+        Ok(Self { positions, normals, uvs, indices, areas, attributes: None })
     }
     /// Vertex positions.
     pub fn positions(&self) -> &[Vec3] {
@@ -76,8 +79,14 @@ impl Mesh {
     pub fn indices(&self) -> &[[u32; 3]] {
         &self.indices
     }
-    fn corners<T: Copy>(&self, values: &[T], triangle: u32) -> [T; 3] {
+    pub(super) fn corners<T: Copy>(&self, values: &[T], triangle: u32) -> [T; 3] {
         self.indices[triangle as usize].map(|i| values[i as usize])
+    }
+    /// What vertices know, at a hit.
+    #[inline]
+    pub(super) fn interpolate<T: Copy + Add<Output = T> + Mul<f32, Output = T>>(&self, values: &[T], hit: &Hit) -> T {
+        let [a, b, c] = self.corners(values, hit.primitive);
+        a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v
     }
     fn point(&self, triangle: u32, u: f32, v: f32) -> (Vec3, Vec3, Vec3) {
         let [a, b, c] = self.corners(&self.positions, triangle);
@@ -94,17 +103,11 @@ impl Mesh {
         let n = if self.normals.is_empty() {
             ng
         } else {
-            let [a, b, c] = self.corners(&self.normals, hit.primitive);
-            let n = ((1.0 - u - v) * a + u * b + v * c).normalize_or(ng);
+            let n = self.interpolate(&self.normals, hit).normalize_or(ng);
             // Files disagree about which side vertex normals take; the winding decides.
             if n.dot(ng) < 0.0 { -n } else { n }
         };
-        let uv = if self.uvs.is_empty() {
-            Vec2::new(u, v)
-        } else {
-            let [a, b, c] = self.corners(&self.uvs, hit.primitive);
-            (1.0 - u - v) * a + u * b + v * c
-        };
+        let uv = if self.uvs.is_empty() { Vec2::new(u, v) } else { self.interpolate(&self.uvs, hit) };
         SurfacePoint { p, p_error, ng, n, uv }
     }
     pub(super) fn area(&self) -> f32 {
@@ -123,7 +126,9 @@ impl Mesh {
         // Not normalised: interpolating moved normals is then the same as moving interpolated ones, as instances do.
         let normals = self.normals.iter().map(|&n| normal_matrix * n).collect();
         let indices = self.indices.iter().map(|&[a, b, c]| if mirrored { [a, c, b] } else { [a, b, c] }).collect();
-        Self::new(positions, normals, self.uvs.clone(), indices).expect("a valid mesh stays valid when moved")
+        let mesh =
+            Self::new(positions, normals, self.uvs.clone(), indices).expect("a valid mesh stays valid when moved");
+        Self { attributes: self.attributes.as_ref().map(|a| Box::new(a.transformed(&m.matrix3))), ..mesh }
     }
 }
 

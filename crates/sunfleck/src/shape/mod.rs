@@ -2,14 +2,17 @@
 //!
 //! Intersection itself is the work of the crate `accel`, which knows triangles and spheres; a shape tells it what it is
 //! made of and turns a hit into a point with normals. To add one: write `shape/<name>.rs` and one variant of [`Shape`].
+mod attributes;
 mod mesh;
 mod parallelogram;
 mod sphere;
 
+pub use attributes::{Attributes, Tangents};
 pub use mesh::{Mesh, MeshError};
 pub use parallelogram::Parallelogram;
 pub use sphere::Sphere;
 
+use crate::texture::VertexAttributes;
 use accel::Hit;
 use glam::{Affine3A, Vec2, Vec3};
 
@@ -82,6 +85,23 @@ impl Shape {
             Self::Mesh(m) => m.surface_point(hit),
             Self::Sphere(s) => s.surface_point(at),
             Self::Parallelogram(q) => q.surface_point(hit),
+        }
+    }
+    /// What the surface knows at `hit` beside its point.
+    #[inline]
+    pub fn attributes(&self, hit: &Hit) -> VertexAttributes {
+        match self {
+            Self::Mesh(m) => m.attributes_at(hit),
+            Self::Sphere(_) | Self::Parallelogram(_) => VertexAttributes::default(),
+        }
+    }
+    /// How the point `s` of `hit`, in the shape's own space, moves with its texture coordinates. `None` where they do not
+    /// say: at the poles of a sphere, and where a mesh has none of its own.
+    pub fn tangents(&self, hit: &Hit, s: &SurfacePoint) -> Option<Tangents> {
+        match self {
+            Self::Mesh(m) => m.tangents(hit, s.n),
+            Self::Sphere(ball) => ball.tangents(s.n),
+            Self::Parallelogram(q) => Some([q.u(), q.v()]),
         }
     }
     /// Surface area (m²).

@@ -26,6 +26,15 @@ impl Sphere {
         let u = n.y.atan2(n.x).rem_euclid(TAU) / TAU;
         SurfacePoint { p: self.centre + self.radius * n, p_error: self.p_error(), ng: n, n, uv: Vec2::new(u, 1.0 - v) }
     }
+    /// Along the circle of latitude and up the meridian, at the point with normal `n`.
+    pub(super) fn tangents(&self, n: Vec3) -> Option<[Vec3; 2]> {
+        let r = n.truncate().length();
+        (r > 0.0).then(|| {
+            let out = n.truncate() / r;
+            let up = Vec3::new(-n.z * out.x, -n.z * out.y, r);
+            [TAU * self.radius * Vec3::new(-n.y, n.x, 0.0), PI * self.radius * up]
+        })
+    }
     fn p_error(&self) -> Vec3 {
         gamma(6.0) * (self.centre.abs() + self.radius)
     }

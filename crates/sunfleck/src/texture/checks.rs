@@ -1,6 +1,5 @@
 //! Patterns of two textures.
-use super::{Lookup, TextureId, UvMap, noise::value};
-use crate::spectrum::Spectrum;
+use super::{Lookup, TextureId, UvMap, Value, noise::value};
 use glam::{Vec2, Vec3};
 
 /// Two textures in turn, in squares of side 1.
@@ -13,10 +12,10 @@ pub struct Checkerboard {
 }
 
 impl Checkerboard {
-    pub(super) fn spectrum(&self, at: &Lookup) -> Spectrum {
+    pub(super) fn value<V: Value>(&self, at: &Lookup) -> V {
         let cell = self.map.at(at.uv).floor();
         let is_odd = (cell.x + cell.y).rem_euclid(2.0) >= 1.0;
-        at.spectrum(self.of[usize::from(is_odd)])
+        at.value(self.of[usize::from(is_odd)])
     }
 }
 
@@ -33,8 +32,8 @@ pub struct Dots {
 }
 
 impl Dots {
-    pub(super) fn spectrum(&self, at: &Lookup) -> Spectrum {
-        at.spectrum(if is_in_dot(self.map.at(at.uv)) { self.inside } else { self.outside })
+    pub(super) fn value<V: Value>(&self, at: &Lookup) -> V {
+        at.value(if is_in_dot(self.map.at(at.uv)) { self.inside } else { self.outside })
     }
 }
 

@@ -1,7 +1,7 @@
 //! Textures made of other textures.
-use super::{Lookup, TextureId};
-use crate::spectrum::Spectrum;
-use glam::Vec2;
+use super::{Lookup, TextureId, Value};
+use crate::spectrum::Rgb;
+use glam::{Affine2, Vec2};
 
 /// From texture coordinates to others: `uv · scale + offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,18 +26,40 @@ impl UvMap {
     }
 }
 
+impl From<UvMap> for Affine2 {
+    fn from(m: UvMap) -> Self {
+        Self::from_scale_angle_translation(m.scale, 0.0, m.offset)
+    }
+}
+
+/// Which of a surface's texture coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum UvSet {
+    /// Those of the hit, or what an outer [`Mapped`] made of them.
+    #[default]
+    First,
+    /// The second set of a mesh, see [`crate::shape::Attributes`]; (0, 0) where there is none.
+    Second,
+}
+
 /// A texture at other coordinates.
 #[derive(Clone, Copy, Debug)]
 pub struct Mapped {
     /// The texture.
     pub of: TextureId,
-    /// Its coordinates from those of the surface.
-    pub map: UvMap,
+    /// Its coordinates from those of the surface: scaling, turning, shearing and shifting.
+    pub map: Affine2,
+    /// Which coordinates those are.
+    pub set: UvSet,
 }
 
 impl Mapped {
-    pub(super) fn spectrum(&self, at: &Lookup) -> Spectrum {
-        Lookup { uv: self.map.at(at.uv), ..*at }.spectrum(self.of)
+    pub(super) fn value<V: Value>(&self, at: &Lookup) -> V {
+        let uv = match self.set {
+            UvSet::First => at.uv,
+            UvSet::Second => at.attributes.uv2,
+        };
+        Lookup { uv: self.map.transform_point2(uv), ..*at }.value(self.of)
     }
 }
 
@@ -49,8 +71,8 @@ pub struct Product {
 }
 
 impl Product {
-    pub(super) fn spectrum(self, at: &Lookup) -> Spectrum {
-        at.spectrum(self.of[0]) * at.spectrum(self.of[1])
+    pub(super) fn value<V: Value>(self, at: &Lookup) -> V {
+        at.value::<V>(self.of[0]) * at.value(self.of[1])
     }
 }
 
@@ -66,8 +88,54 @@ pub struct Mix {
 }
 
 impl Mix {
-    pub(super) fn spectrum(&self, at: &Lookup) -> Spectrum {
-        let share = at.spectrum(self.amount);
-        at.spectrum(self.from) * (Spectrum::ONE - share) + at.spectrum(self.to) * share
+    pub(super) fn value<V: Value>(&self, at: &Lookup) -> V {
+        let share: V = at.value(self.amount);
+        at.value::<V>(self.from) * (V::ONE - share) + at.value::<V>(self.to) * share
+    }
+}
+
+/// One channel of a texture as a grey: numbers that were packed side by side, as glTF's roughness and metalness.
+#[derive(Clone, Copy, Debug)]
+pub struct Channel {
+    /// The texture.
+    pub of: TextureId,
+    /// 0 red, 1 green, 2 blue.
+    pub channel: u8,
+}
+
+impl Channel {
+    pub(super) fn value<V: Value>(self, at: &Lookup) -> V {
+        V::pixel(Rgb::splat(at.rgb(self.of).to_array()[usize::from(self.channel.min(2))]), at.lambda)
+    }
+}
+
+/// 1 where the red channel of a texture reaches `cutoff`, 0 elsewhere: a stencil.
+#[derive(Clone, Copy, Debug)]
+pub struct Threshold {
+    /// The texture.
+    pub of: TextureId,
+    /// The least value that gives 1.
+    pub cutoff: f32,
+}
+
+impl Threshold {
+    pub(super) fn value<V: Value>(self, at: &Lookup) -> V {
+        V::pixel(Rgb::splat(f32::from(at.rgb(self.of).x >= self.cutoff)), at.lambda)
+    }
+}
+
+/// What a mesh knows at its vertices, see [`crate::shape::Attributes`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum VertexColour {
+    /// The colour, linear sRGB; white where there is none.
+    Rgb,
+    /// The opacity as a grey; 1 where there is none.
+    Alpha,
+}
+
+impl VertexColour {
+    pub(super) fn value<V: Value>(self, at: &Lookup) -> V {
+        let colour = at.attributes.colour;
+        V::pixel(if self == Self::Rgb { colour.truncate() } else { Rgb::splat(colour.w) }, at.lambda)
     }
 }

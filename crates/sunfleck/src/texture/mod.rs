@@ -6,14 +6,17 @@ mod checks;
 mod compose;
 mod image;
 mod noise;
+mod value;
 
 pub use checks::{Checkerboard, Dots};
-pub use compose::{Mapped, Mix, Product, UvMap};
+pub use compose::{Channel, Mapped, Mix, Product, Threshold, UvMap, UvSet, VertexColour};
 pub use image::{ImageTexture, Wrap};
 pub use noise::{Noise, NoiseKind};
+pub use value::Scalar;
 
-use crate::spectrum::{Colour, Spectrum, Wavelengths};
-use glam::{Vec2, Vec3};
+use crate::spectrum::{Colour, Rgb, Spectrum, Wavelengths};
+use glam::{Vec2, Vec3, Vec4};
+use value::Value;
 
 /// Handle of a texture of the scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -30,13 +33,54 @@ pub struct Lookup<'s> {
     pub p: Vec3,
     /// What the lanes mean in this pass.
     pub lambda: Wavelengths,
+    /// What else the surface knows here.
+    pub attributes: VertexAttributes,
+}
+
+/// What a mesh may know at its vertices, interpolated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VertexAttributes {
+    /// Second set of texture coordinates.
+    pub uv2: Vec2,
+    /// Colour (linear sRGB) and opacity.
+    pub colour: Vec4,
+}
+
+impl Default for VertexAttributes {
+    fn default() -> Self {
+        Self { uv2: Vec2::ZERO, colour: Vec4::ONE }
+    }
+}
+
+impl<'s> Lookup<'s> {
+    /// At texture coordinates `uv` and at the point `p` of a surface that knows nothing else.
+    pub fn new(textures: &'s [Texture], uv: Vec2, p: Vec3, lambda: Wavelengths) -> Self {
+        Self { textures, uv, p, lambda, attributes: VertexAttributes::default() }
+    }
 }
 
 impl Lookup<'_> {
     /// The colour of texture `id` here, at the wavelengths of the pass.
     #[inline]
     pub fn spectrum(&self, id: TextureId) -> Spectrum {
-        self.textures[id.0 as usize].spectrum(self)
+        self.value(id)
+    }
+    /// The numbers of texture `id` here, as the scene gives them: for what is no colour of light.
+    #[inline]
+    pub fn rgb(&self, id: TextureId) -> Rgb {
+        self.value(id)
+    }
+    /// The number `s` here.
+    #[inline]
+    pub fn scalar(&self, s: Scalar) -> f32 {
+        match s {
+            Scalar::Constant(v) => v,
+            Scalar::Texture(id) => self.rgb(id).x,
+        }
+    }
+    #[inline]
+    fn value<V: Value>(&self, id: TextureId) -> V {
+        self.textures[id.0 as usize].value(self)
     }
 }
 
@@ -59,32 +103,43 @@ pub enum Texture {
     Dots(Dots),
     /// A solid pattern of noise.
     Noise(Noise),
+    /// One channel of another.
+    Channel(Channel),
+    /// A stencil made of another.
+    Threshold(Threshold),
+    /// Colour or opacity of a mesh's vertices.
+    Vertex(VertexColour),
 }
 
 impl Texture {
     /// The values at a place.
     #[inline]
-    pub fn spectrum(&self, at: &Lookup) -> Spectrum {
+    fn value<V: Value>(&self, at: &Lookup) -> V {
         match self {
-            Self::Constant(c) => c.at(at.lambda),
-            Self::Image(i) => Spectrum::reflectance(i.eval(at.uv), at.lambda),
-            Self::Mapped(t) => t.spectrum(at),
-            Self::Product(t) => t.spectrum(at),
-            Self::Mix(t) => t.spectrum(at),
-            Self::Checkerboard(t) => t.spectrum(at),
-            Self::Dots(t) => t.spectrum(at),
-            Self::Noise(t) => t.spectrum(at),
+            Self::Constant(c) => V::colour(c, at.lambda),
+            Self::Image(i) => V::pixel(i.eval(at.uv), at.lambda),
+            Self::Mapped(t) => t.value(at),
+            Self::Product(t) => t.value(at),
+            Self::Mix(t) => t.value(at),
+            Self::Checkerboard(t) => t.value(at),
+            Self::Dots(t) => t.value(at),
+            Self::Noise(t) => t.value(at),
+            Self::Channel(t) => t.value(at),
+            Self::Threshold(t) => t.value(at),
+            Self::Vertex(t) => t.value(at),
         }
     }
     /// The textures it is made of.
     pub fn parts(&self) -> Vec<TextureId> {
         match self {
-            Self::Constant(_) | Self::Image(_) | Self::Noise(_) => Vec::new(),
+            Self::Constant(_) | Self::Image(_) | Self::Noise(_) | Self::Vertex(_) => Vec::new(),
             Self::Mapped(t) => vec![t.of],
             Self::Product(t) => t.of.to_vec(),
             Self::Mix(t) => vec![t.from, t.to, t.amount],
             Self::Checkerboard(t) => t.of.to_vec(),
             Self::Dots(t) => vec![t.inside, t.outside],
+            Self::Channel(t) => vec![t.of],
+            Self::Threshold(t) => vec![t.of],
         }
     }
 }

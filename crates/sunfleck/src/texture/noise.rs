@@ -1,6 +1,6 @@
 //! Solid patterns out of noise (Perlin 1985, "An Image Synthesizer"; 2002, "Improving Noise").
-use super::Lookup;
-use crate::spectrum::{Rgb, Spectrum};
+use super::{Lookup, Value};
+use crate::spectrum::Rgb;
 use glam::{Affine3A, Vec3};
 
 /// Which pattern.
@@ -46,8 +46,8 @@ pub struct Noise {
 const MAX_OCTAVES: u32 = 16;
 
 impl Noise {
-    pub(super) fn spectrum(&self, at: &Lookup) -> Spectrum {
-        Spectrum::reflectance(self.eval(self.pattern_from_world.transform_point3(at.p)), at.lambda)
+    pub(super) fn value<V: Value>(&self, at: &Lookup) -> V {
+        V::pixel(self.eval(self.pattern_from_world.transform_point3(at.p)), at.lambda)
     }
     /// The value at a point of the pattern; not negative.
     pub fn eval(&self, p: Vec3) -> Rgb {

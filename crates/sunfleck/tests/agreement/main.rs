@@ -126,4 +126,6 @@ agreement![
     dispersive_ball,
     dispersive_caustic,
     dispersive_rough_glass,
+    coverings,
+    mixed_mirror,
 ];

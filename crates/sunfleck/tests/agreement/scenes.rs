@@ -1,4 +1,5 @@
 //! Tiny scenes, each with one thing that algorithms get wrong.
+mod covered;
 mod moving;
 
 use glam::{Affine3A, Quat, Vec2, Vec3};
@@ -74,6 +75,8 @@ pub(crate) const SCENES: &[TinyScene] = &[
     tiny("dispersive_ball", "dispersion seen through glass", LIGHT, dispersive_ball),
     tiny("dispersive_caustic", "a caustic of many colours", NONE, dispersive_caustic),
     tiny("dispersive_rough_glass", "dispersion in frosted glass", NONE, dispersive_rough_glass),
+    tiny("coverings", "holes, two sides, normals and bumps from pictures, brushed metal", NONE, covered::coverings),
+    tiny("mixed_mirror", "a mirror mixed with paint behind a pane", LIGHT, covered::mixed_mirror),
 ];
 
 /// A room 2 x 2 x 2 around the origin with an open front at z = 1, walls of three colours, and the eye before it.
@@ -303,7 +306,7 @@ fn environment_light() -> Scene {
 fn rough_glass() -> Scene {
     let mut b = room();
     let glass = clear_glass(&mut b);
-    let frosted = b.material(RoughDielectricMaterial { glass, alpha: 0.4 });
+    let frosted = b.material(RoughDielectricMaterial { glass, alpha: 0.4.into() });
     b.add(ball([0.1, -0.4, 0.1], 0.5), frosted);
     emit(&mut b, lamp(1.2, 0.95), Vec3::splat(5.0), Sides::One);
     finish(b)
@@ -312,7 +315,8 @@ fn rough_glass() -> Scene {
 fn rough_metal() -> Scene {
     let mut b = room();
     let [eta, k, reflectance] = [Vec3::new(0.2, 0.9, 1.1), Vec3::new(3.9, 2.4, 2.3), Vec3::ONE].map(|c| b.constant(c));
-    let gold = b.material(RoughConductorMaterial { metal: ConductorMaterial { eta, k, reflectance }, alpha: 0.3 });
+    let gold =
+        b.material(RoughConductorMaterial { metal: ConductorMaterial { eta, k, reflectance }, alpha: 0.3.into() });
     b.add(ball([-0.2, -0.4, 0.0], 0.6), gold);
     emit(&mut b, lamp(1.2, 0.95), Vec3::splat(5.0), Sides::One);
     finish(b)
@@ -379,7 +383,7 @@ fn dispersive_caustic() -> Scene {
 fn dispersive_rough_glass() -> Scene {
     let mut b = room();
     let glass = prism_glass(&mut b);
-    let frosted = b.material(RoughDielectricMaterial { glass, alpha: 0.3 });
+    let frosted = b.material(RoughDielectricMaterial { glass, alpha: 0.3.into() });
     b.add(ball([0.1, -0.4, 0.1], 0.5), frosted);
     emit(&mut b, lamp(1.2, 0.95), Vec3::splat(5.0), Sides::One);
     finish(b)

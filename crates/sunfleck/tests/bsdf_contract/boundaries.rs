@@ -62,6 +62,19 @@ fn light_bends_by_snells_law_and_away_from_glass() {
 }
 
 #[test]
+fn a_pane_reflects_what_its_two_sides_do_and_lets_the_rest_straight_through() {
+    // Of 1.5 along the normal, each side reflects 4 %: 0.04 + 0.96² · 0.04 / (1 − 0.04²) = 2/26.
+    for c in cases().iter().filter(|c| c.label == "thindielectric eta 1.50") {
+        let reflected = c.bsdf.sample(Local(Vec3::Z), 0.0, Vec2::ZERO, Transport::Radiance).expect("a reflection");
+        assert!((reflected.pdf - 2.0 / 26.0).abs() < 1e-6 && reflected.wi.0 == Vec3::Z, "{}", reflected.pdf);
+        for wo in outgoing() {
+            let passed = c.bsdf.sample(wo, 0.9999, Vec2::ZERO, Transport::Radiance).expect("a passage");
+            assert!(passed.wi.0 == -wo.0 && passed.eta == 1.0, "{}", wo.0);
+        }
+    }
+}
+
+#[test]
 fn mirrors_reflect_about_the_normal() {
     for wo in outgoing() {
         for c in cases().iter().filter(|c| matches!(c.bsdf, Bsdf::Mirror(_) | Bsdf::Conductor(_))) {

@@ -58,7 +58,7 @@ impl Shelf {
     fn add_by_lane(&mut self, setting: &str, eta: Vec3, material: impl Into<Material>) {
         let material = material.into();
         assert!(material.textures().iter().all(|t| (t.0 as usize) < self.textures.len()));
-        let at = Lookup { textures: &self.textures, uv: Vec2::ZERO, p: Vec3::ZERO, lambda: self.lambda };
+        let at = Lookup::new(&self.textures, Vec2::ZERO, Vec3::ZERO, self.lambda);
         let (bsdf, model) = (material.resolve(&at), material.name());
         self.cases.push(Case { label: format!("{model} {setting}"), model, bsdf, eta });
     }
@@ -84,7 +84,11 @@ fn dispersive(s: &mut Shelf) {
     let glass = DielectricMaterial { eta: ior, reflectance: white, transmittance: white };
     s.add_by_lane("dispersive", eta, glass);
     for alpha in [0.02, 0.3, 1.0] {
-        s.add_by_lane(&format!("dispersive alpha {alpha}"), eta, RoughDielectricMaterial { glass, alpha });
+        s.add_by_lane(
+            &format!("dispersive alpha {alpha}"),
+            eta,
+            RoughDielectricMaterial { glass, alpha: alpha.into() },
+        );
     }
     s.lambda = Wavelengths::Rgb;
 }
@@ -105,19 +109,31 @@ fn dielectrics(s: &mut Shelf) {
         let glass = DielectricMaterial { eta: eta.into(), reflectance: white, transmittance: white };
         s.add_between(&format!("eta {eta:.2}"), eta, glass);
     }
+    for eta in [1.5, 1.0 / 1.5] {
+        let pane = ThinDielectricMaterial { eta: eta.into(), reflectance: white, transmittance: white };
+        s.add(&format!("eta {eta:.2}"), pane);
+    }
+    s.add("tinted", ThinDielectricMaterial { eta: 1.5.into(), reflectance: pink, transmittance: green });
+    let brushed = Roughness { u: 0.3.into(), v: 0.05.into() };
+    let glass = DielectricMaterial { eta: 1.5.into(), reflectance: white, transmittance: white };
+    s.add_between("brushed", 1.5, RoughDielectricMaterial { glass, alpha: brushed });
     let tinted = DielectricMaterial { eta: 1.5.into(), reflectance: pink, transmittance: green };
     s.add_between("tinted", 1.5, tinted);
     for alpha in [0.0, 1e-3, 0.05, 0.3, 1.0] {
         for eta in [1.5, 1.0 / 1.33, 1.1] {
             let glass = DielectricMaterial { eta: eta.into(), reflectance: white, transmittance: white };
-            s.add_between(&format!("eta {eta:.2} alpha {alpha}"), eta, RoughDielectricMaterial { glass, alpha });
+            s.add_between(
+                &format!("eta {eta:.2} alpha {alpha}"),
+                eta,
+                RoughDielectricMaterial { glass, alpha: alpha.into() },
+            );
         }
     }
-    s.add_between("tinted", 1.5, RoughDielectricMaterial { glass: tinted, alpha: 0.4 });
+    s.add_between("tinted", 1.5, RoughDielectricMaterial { glass: tinted, alpha: 0.4.into() });
     let opaque = DielectricMaterial { transmittance: black, ..tinted };
-    s.add_between("opaque", 1.5, RoughDielectricMaterial { glass: opaque, alpha: 0.4 });
+    s.add_between("opaque", 1.5, RoughDielectricMaterial { glass: opaque, alpha: 0.4.into() });
     let clear = DielectricMaterial { reflectance: black, ..tinted };
-    s.add_between("without reflection", 1.5, RoughDielectricMaterial { glass: clear, alpha: 0.4 });
+    s.add_between("without reflection", 1.5, RoughDielectricMaterial { glass: clear, alpha: 0.4.into() });
 }
 
 fn conductors(s: &mut Shelf) {
@@ -128,10 +144,15 @@ fn conductors(s: &mut Shelf) {
     let ideal = ConductorMaterial { eta: none, k: huge, reflectance: white };
     let metal = ConductorMaterial { eta: gold.0, k: gold.1, reflectance: white };
     s.add("gold", metal);
+    for (u, v) in [(0.4, 0.05), (0.02, 0.7)] {
+        let alpha = Roughness { u: u.into(), v: v.into() };
+        s.add(&format!("gold brushed {u} {v}"), RoughConductorMaterial { metal, alpha });
+        s.add(&format!("ideal brushed {u} {v}"), RoughConductorMaterial { metal: ideal, alpha });
+    }
     s.add("ideal", ideal);
     for alpha in [0.0, 1e-3, 0.02, 0.3, 1.0] {
-        s.add(&format!("gold alpha {alpha}"), RoughConductorMaterial { metal, alpha });
-        s.add(&format!("ideal alpha {alpha}"), RoughConductorMaterial { metal: ideal, alpha });
+        s.add(&format!("gold alpha {alpha}"), RoughConductorMaterial { metal, alpha: alpha.into() });
+        s.add(&format!("ideal alpha {alpha}"), RoughConductorMaterial { metal: ideal, alpha: alpha.into() });
     }
 }
 

@@ -200,11 +200,14 @@ impl Visit for Shine<'_, '_> {
         self.merges = rule.merges(a.scatterings, a.delta);
         // Drawn at every vertex, so that what follows does not depend on the material.
         let u_lens = if rule.on.light_image { sampler.next_2d() } else { glam::Vec2::ZERO };
-        if !a.at.is_connectible() || self.shower.limits.scatterings == 0 {
+        if self.shower.limits.scatterings == 0 {
             return Step::On;
         }
-        if self.shower.keep.takes(a.scatterings, a.delta) {
+        if a.at.gathers && self.shower.keep.takes(a.scatterings, a.delta) {
             self.deposit(a, &sums);
+        }
+        if !a.at.is_connectible() {
+            return Step::On;
         }
         if rule.on.connect {
             let (flux, scatterings, dispersed, merges) = (a.beta, a.scatterings, a.dispersed, self.merges);

@@ -113,7 +113,7 @@ struct Land {
 impl Visit for Land {
     fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
         self.first.get_or_insert(a.at.p);
-        if a.at.is_connectible() && (self.direct || a.scatterings > 0) {
+        if a.at.gathers && (self.direct || a.scatterings > 0) {
             self.landings.push(Landing { p: a.at.p, wi: a.at.wo, flux: a.beta.mean() });
         }
         Step::On

@@ -137,7 +137,7 @@ impl Visit for Clerk<'_> {
     fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
         self.arrive(a.beta);
         let flux = watts(a.beta);
-        if self.tracer.audit.keep.keeps(a) && a.at.is_connectible() {
+        if self.tracer.audit.keep.keeps(a) && a.at.gathers {
             self.account().stored.add(flux);
             self.page.positions.push(a.at.p);
             self.page.photons.push(Kept { light: self.light, path: self.path, wi: a.at.wo, flux });

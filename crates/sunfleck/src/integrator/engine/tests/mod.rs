@@ -205,7 +205,7 @@ impl Setting<'_> {
 
 fn scattered(at: &Interaction, wi: Vec3, delta: bool) -> Scattered {
     let pdf = if delta { 1.0 } else { at.pdf(wi) };
-    Scattered { wi, weight: Spectrum::ONE, pdf, delta, eta: 1.0, disperses: false }
+    Scattered { wi, weight: Spectrum::ONE, pdf, delta, eta: 1.0, crosses: false, disperses: false }
 }
 
 /// The presets and what lies between them.

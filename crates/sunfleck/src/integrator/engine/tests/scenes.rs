@@ -107,9 +107,9 @@ fn balls(b: &mut SceneBuilder) {
     let mirror = b.material(MirrorMaterial { reflect: white });
     let clear = || DielectricMaterial { eta: 1.5.into(), reflectance: white, transmittance: white };
     let glass = b.material(clear());
-    let frosted = b.material(RoughDielectricMaterial { glass: clear(), alpha: 0.3 });
+    let frosted = b.material(RoughDielectricMaterial { glass: clear(), alpha: 0.3.into() });
     let metal = ConductorMaterial { eta, k, reflectance: white };
-    let gold = b.material(RoughConductorMaterial { metal, alpha: 0.2 });
+    let gold = b.material(RoughConductorMaterial { metal, alpha: 0.2.into() });
     let paint = b.material(PhongMaterial { diffuse: grey, specular: grey, exponent: 15.0 });
     b.add(ball([-0.6, -0.6, 0.0], 0.35), mirror);
     b.add(ball([0.1, -0.6, 0.3], 0.35), glass);

@@ -1,0 +1,136 @@
+//! What rays meet, and what covers it.
+use super::{
+    Interaction, Surface, World,
+    moment::{Moment, Placement},
+};
+use crate::{
+    bsdf::{
+        Lookup,
+        cover::{Coin, Covered, Site, cover, opacity},
+    },
+    math::Ray,
+    shape::{SurfacePoint, Tangents},
+};
+use accel::Hit;
+use glam::{Mat3A, Vec3};
+
+impl World<'_> {
+    /// The first surface along `ray` (unit direction), materials resolved.
+    #[inline(always)]
+    pub fn intersect(&self, ray: &Ray) -> Option<Interaction> {
+        let bvh = &self.moment.bvh;
+        let hit = if self.scene.porous.is_empty() { bvh.closest(ray) } else { self.closest_between_holes(ray) }?;
+        let (surface, point) = self.locate(&hit, ray);
+        let attributes = surface.shape.attributes(&hit);
+        let at =
+            Lookup { textures: &self.scene.textures, uv: point.uv, p: point.p, lambda: self.around.lambda, attributes };
+        let material = &self.scene.materials[surface.material.0 as usize];
+        let (wo, t, light) = (-ray.d, hit.t, surface.light);
+        if material.is_plain() {
+            return Some(Interaction::new(&point, wo, t, material.resolve(&at), light));
+        }
+        let covered = self.cover(&hit, ray, surface, &point, at);
+        Some(Interaction::covered(&point, wo, t, &covered, light))
+    }
+    /// Whether something lies within the reach of `ray`.
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        if self.scene.porous.is_empty() { self.moment.bvh.occluded(ray) } else { self.occluded_between_holes(ray) }
+    }
+
+    #[inline]
+    fn surface(&self, hit: &Hit) -> (&Surface, Option<&Placement>) {
+        let Moment { surfaces, placements, .. } = &*self.moment;
+        if hit.instance == Hit::NO_INSTANCE {
+            return (&surfaces[hit.geometry as usize], None);
+        }
+        let placed = &placements[hit.instance as usize];
+        (&self.scene.objects[placed.object.0 as usize][hit.geometry as usize], Some(placed))
+    }
+    /// The surface that was hit and the point on it, in world space.
+    #[inline(always)]
+    fn locate(&self, hit: &Hit, ray: &Ray) -> (&Surface, SurfacePoint) {
+        let at = ray.o + hit.t * ray.d;
+        let (surface, placed) = self.surface(hit);
+        let point = match placed {
+            None => surface.shape.surface_point(hit, at),
+            Some(placed) => {
+                placed.to_world(&surface.shape.surface_point(hit, placed.object_from_world.transform_point3(at)))
+            }
+        };
+        (surface, point)
+    }
+    /// What covers `surface` at `point`, where that is not a plain model.
+    #[inline(never)]
+    fn cover(&self, hit: &Hit, ray: &Ray, surface: &Surface, point: &SurfacePoint, at: Lookup) -> Covered {
+        let site = Site {
+            materials: &self.scene.materials,
+            at,
+            ng: point.ng,
+            n: point.n,
+            tangents: self.tangents(hit, ray),
+            outside: ray.d.dot(point.ng) < 0.0,
+            coin: Coin::new(ray),
+        };
+        cover(surface.material, site)
+    }
+    /// How the point of a hit moves in the world with its texture coordinates.
+    fn tangents(&self, hit: &Hit, ray: &Ray) -> Option<Tangents> {
+        let at = ray.o + hit.t * ray.d;
+        let (surface, placed) = self.surface(hit);
+        let Some(placed) = placed else {
+            return surface.shape.tangents(hit, &surface.shape.surface_point(hit, at));
+        };
+        let point = surface.shape.surface_point(hit, placed.object_from_world.transform_point3(at));
+        let tangents = surface.shape.tangents(hit, &point)?;
+        Some(tangents.map(|t| placed.world_from_object.transform_vector3(t)))
+    }
+
+    #[inline(never)]
+    fn closest_between_holes(&self, ray: &Ray) -> Option<Hit> {
+        let coin = Coin::new(ray);
+        self.moment.bvh.closest_filtered(ray, |hit| self.meets(hit, ray, coin))
+    }
+    #[inline(never)]
+    fn occluded_between_holes(&self, ray: &Ray) -> bool {
+        let coin = Coin::new(ray);
+        self.moment.bvh.occluded_filtered(ray, |hit| self.meets(hit, ray, coin))
+    }
+    /// Whether `ray` meets the surface of `hit`, or a hole in it.
+    fn meets(&self, hit: &Hit, ray: &Ray, coin: Coin) -> bool {
+        let (surface, _) = self.surface(hit);
+        if !self.scene.porous[surface.material.0 as usize] || surface.light.is_some() {
+            return true;
+        }
+        let (surface, point) = self.locate(hit, ray);
+        let at = Lookup {
+            textures: &self.scene.textures,
+            uv: point.uv,
+            p: point.p,
+            lambda: self.around.lambda,
+            attributes: surface.shape.attributes(hit),
+        };
+        let opacity = opacity(surface.material, &self.scene.materials, &at);
+        // A ball may be met twice by the same ray, so the place is part of the toss.
+        let place = [hit.instance, hit.geometry, hit.primitive, hit.t.to_bits()];
+        let salt = place.iter().fold(0, |h, &v| crate::sampler::mix64(h ^ u64::from(v)));
+        opacity >= 1.0 || coin.toss(salt) < opacity
+    }
+}
+
+impl Placement {
+    fn to_world(&self, s: &SurfacePoint) -> SurfacePoint {
+        let m = &self.world_from_object;
+        let abs = |m: &Mat3A| Mat3A::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs());
+        let (forth, back) = (abs(&m.matrix3), abs(&self.object_from_world.matrix3));
+        // Error of the moved point: the old error moved, plus the roundings of the transform itself, and of the inverse
+        // transform that rays leaving this point go through.
+        let p = m.transform_point3(s.p);
+        let there = forth * s.p.abs() + Vec3::from(m.translation).abs();
+        let back_again = forth * (back * p.abs() + Vec3::from(self.object_from_world.translation).abs());
+        let rounding = crate::shape::gamma(4.0) * (there + back_again);
+        let ng = (self.normal_from_object * s.ng).normalize_or(Vec3::Z);
+        let n = (self.normal_from_object * s.n).normalize_or(ng);
+        SurfacePoint { p, p_error: 1.01 * (forth * s.p_error) + rounding, ng, n, uv: s.uv }
+    }
+}
