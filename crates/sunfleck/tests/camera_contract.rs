@@ -1,7 +1,9 @@
 //! What every camera promises: the ray through a place of the picture and the way back agree, and it measures radiance.
 use glam::{Vec2, Vec3};
+use std::f32::consts::PI;
 use sunfleck::{
-    camera::{Camera, Perspective, PerspectiveError, Project, View},
+    camera::{Camera, CameraError, Orthographic, Perspective, Project, Spherical, Spread, Unrolling, View},
+    math::warp::square_to_sphere,
     sampler::{Domain, Sampler},
 };
 
@@ -10,10 +12,18 @@ const FRONT: View = View { position: Vec3::ZERO, look_at: Vec3::Z, up: Vec3::Y }
 
 fn cameras() -> Vec<(&'static str, Camera)> {
     let pinhole = || Perspective::new(&VIEW, 50.0, 1.6).unwrap();
+    let flat = || Orthographic::new(&VIEW, 5.0, 0.8).unwrap();
     vec![
         ("pinhole", pinhole().into()),
         ("thin lens", pinhole().with_lens(0.4, 3.0).unwrap().into()),
         ("shifted and mirrored", pinhole().with_shift(Vec2::new(0.3, -0.2)).mirrored().into()),
+        ("parallel", Orthographic::new(&VIEW, 6.0, 1.4).unwrap().into()),
+        (
+            "parallel with lenses",
+            flat().with_lens(0.6, 4.0).unwrap().with_shift(Vec2::new(0.1, -0.2)).mirrored().into(),
+        ),
+        ("sphere", Spherical::new(&VIEW, Unrolling::Equirectangular).unwrap().into()),
+        ("equal areas", Spherical::new(&VIEW, Unrolling::EqualArea).unwrap().mirrored().into()),
         ("wide thin lens", Perspective::new(&VIEW, 100.0, 0.7).unwrap().with_lens(0.5, 1.0).unwrap().into()),
     ]
 }
@@ -32,16 +42,21 @@ fn the_way_back_from_a_point_on_a_ray_leads_to_the_same_place() {
             assert!((out.ray.d.length() - 1.0).abs() < 1e-5);
             let t = 0.5 + 20.0 * s.next_1d();
             let back = camera.sample_wi(out.ray.at(t), u_lens).unwrap();
-            assert!((back.raster - raster).length() < 1e-4, "{name}: {raster} became {}", back.raster);
-            assert!((back.p - out.ray.o).length() < 1e-5 && (back.wi + out.ray.d).length() < 1e-4, "{name}");
-            assert!((back.importance * out.solid_angle * t * t - 1.0).abs() < 1e-3, "{name}");
+            // Longitudes part at the poles.
+            let near_pole = name == "sphere" && (raster.y - 0.5).abs() > 0.49;
+            assert!(near_pole || (back.raster - raster).length() < 1e-4, "{name}: {raster} became {}", back.raster);
+            assert!(
+                (back.p - out.ray.o).length() < 1e-5 * (1.0 + t) && (back.wi + out.ray.d).length() < 1e-4,
+                "{name}"
+            );
+            assert!(near_pole || (back.importance * out.spread.area_at(t) - 1.0).abs() < 1e-3, "{name}");
         }
     }
 }
 
 #[test]
 fn what_is_behind_the_camera_is_not_seen() {
-    for (name, camera) in cameras() {
+    for (name, camera) in cameras().into_iter().filter(|(name, _)| !matches!(*name, "sphere" | "equal areas")) {
         let away = VIEW.position - VIEW.look_at;
         for p in [VIEW.position + away, VIEW.position + 0.1 * away + 3.0 * Vec3::X] {
             assert!(camera.sample_wi(p, Vec2::splat(0.3)).is_none(), "{name}");
@@ -57,7 +72,7 @@ fn a_matt_sheet_of_radiance_one_measures_one_everywhere() {
     const FIELDS: usize = 6;
     let n = Vec3::new(0.3, 0.2, -1.0).normalize();
     let (u, v) = n.any_orthonormal_pair();
-    for (name, camera) in cameras() {
+    for (name, camera) in cameras().into_iter().filter(|(name, _)| !matches!(*name, "sphere" | "equal areas")) {
         let (centre, half) = (VIEW.position + 4.0 * (VIEW.look_at - VIEW.position).normalize(), 14.0);
         let area = f64::from(4.0 * half * half);
         let mut tally = [[0.0f64; 2]; FIELDS * FIELDS];
@@ -93,7 +108,7 @@ fn the_solid_angles_of_the_picture_add_up_to_the_pyramid_it_spans() {
         let want = 4.0 * (a * b / (1.0 + a * a + b * b).sqrt()).atan();
         let n = 200;
         let raster = |i: u32| Vec2::new((i % n) as f32 + 0.5, (i / n) as f32 + 0.5) / n as f32;
-        let sum: f64 = (0..n * n).map(|i| f64::from(camera.ray(raster(i), Vec2::ZERO).solid_angle)).sum();
+        let sum: f64 = (0..n * n).map(|i| f64::from(camera.ray(raster(i), Vec2::ZERO).spread.area_at(1.0))).sum();
         let mean = sum as f32 / (n * n) as f32;
         assert!((mean / want - 1.0).abs() < 1e-3, "{mean} against {want}");
     }
@@ -112,6 +127,71 @@ fn looking_along_z_x_is_on_the_left_and_y_on_top() {
         (Vec3::new(-1.0, 0.5, 1.0), (0.75, 0.25)),
     ] {
         assert!((raster(p) - Vec2::from(want)).length() < 1e-5, "{p} is seen at {}", raster(p));
+    }
+}
+
+/// The same of a ball around an eye that sees in all directions.
+#[test]
+fn a_shining_ball_around_the_eye_measures_one_everywhere() {
+    const N: u64 = 400_000;
+    const FIELDS: usize = 6;
+    let (centre, radius) = (VIEW.position + Vec3::new(0.5, -1.0, 0.7), 4.0f32);
+    for (name, camera) in cameras().into_iter().filter(|(name, _)| matches!(*name, "sphere" | "equal areas")) {
+        let mut tally = [[0.0f64; 2]; FIELDS * FIELDS];
+        for i in 0..N {
+            let n = square_to_sphere(sampler(i).next_2d());
+            let c = camera.sample_wi(centre + radius * n, Vec2::ZERO).unwrap();
+            let q = (c.raster * FIELDS as f32).clamp(Vec2::ZERO, Vec2::splat(FIELDS as f32 - 0.5));
+            let area = f64::from(4.0 * PI * radius * radius);
+            let x = area * f64::from(-n.dot(c.wi) * c.importance) * (FIELDS * FIELDS) as f64;
+            let t = &mut tally[q.y as usize * FIELDS + q.x as usize];
+            *t = [t[0] + x, t[1] + x * x];
+        }
+        for (i, [s, s2]) in tally.iter().enumerate() {
+            let n = N as f64;
+            let (mean, error) = (s / n, ((s2 - s * s / n).max(0.0)).sqrt() / n);
+            assert!(error < 0.1 && (mean - 1.0).abs() < 4.5 * error, "{name}, field {i}: {mean} ± {error}");
+        }
+    }
+}
+
+#[test]
+fn what_surrounds_a_spherical_camera_lies_where_its_unrolling_says() {
+    // Looking along z with y up, -x is at the right.
+    let of = |unrolling| Spherical::new(&FRONT, unrolling).unwrap();
+    let seen = |camera: &Spherical, d: Vec3| camera.sample_wi(3.0 * d, Vec2::ZERO).unwrap().raster;
+    let (long, square) = (of(Unrolling::Equirectangular), of(Unrolling::EqualArea));
+    for (d, in_long, in_square) in [
+        (Vec3::Z, (0.5, 0.5), (0.5, 1.0)),
+        (Vec3::NEG_X, (0.75, 0.5), (1.0, 0.5)),
+        (Vec3::X, (0.25, 0.5), (0.0, 0.5)),
+        (Vec3::new(0.0, 1.0, 1.0), (0.5, 0.25), (0.5, 0.5 + 0.5 * (1.0 - 0.5f32.sqrt()).sqrt())),
+        (Vec3::new(0.0, -1.0, 1e-6), (0.5, 1.0), (0.5, 1.0)),
+    ] {
+        assert!(seen(&long, d).distance(Vec2::from(in_long)) < 1e-4, "{d} is seen at {}", seen(&long, d));
+        if d.y >= 0.0 {
+            assert!(seen(&square, d).distance(Vec2::from(in_square)) < 1e-4, "{d} is seen at {}", seen(&square, d));
+        }
+    }
+}
+
+#[test]
+fn parallel_rays_keep_sizes_and_see_only_what_lies_ahead() {
+    let camera = Orthographic::new(&FRONT, 4.0, 1.5).unwrap();
+    let raster = |p: Vec3| camera.sample_wi(p, Vec2::ZERO).map(|c| c.raster);
+    for z in [0.1, 1.0, 50.0] {
+        assert!(raster(Vec3::new(-3.0, 2.0, z)).unwrap().distance(Vec2::new(1.0, 0.0)) < 1e-5);
+        assert!(raster(Vec3::new(1.5, 0.0, z)).unwrap().distance(Vec2::new(0.25, 0.5)) < 1e-5);
+    }
+    assert_eq!(raster(Vec3::new(0.5, 0.5, -0.1)), None);
+    // A pixel covers the same everywhere.
+    let ray = camera.ray(Vec2::new(0.1, 0.8), Vec2::ZERO);
+    assert_eq!((ray.ray.d, ray.spread), (Vec3::Z, Spread::Area(24.0)));
+    assert_eq!(ray.spread.of_pixel(24).width_at(7.0), 1.0);
+    let blurred = Orthographic::new(&FRONT, 4.0, 1.5).unwrap().with_lens(0.5, 2.0).unwrap();
+    for i in 0..100 {
+        let p = blurred.ray(Vec2::new(0.3, 0.6), sampler(i).next_2d()).ray;
+        assert!((p.o + p.d * (2.0 / p.d.z)).distance(Vec3::new(1.2, -0.4, 2.0)) < 1e-5, "what is in focus is sharp");
     }
 }
 
@@ -160,7 +240,7 @@ fn a_lens_is_sampled_all_over() {
 
 #[test]
 fn numbers_that_make_no_camera_are_named() {
-    let message = |r: Result<Perspective, PerspectiveError>| r.err().map(|e| e.to_string()).unwrap_or_default();
+    let message = |r: Result<Perspective, CameraError>| r.err().map(|e| e.to_string()).unwrap_or_default();
     let new = |view: View, fov, aspect| message(Perspective::new(&view, fov, aspect));
     for (found, want) in [
         (new(FRONT, 0.0, 1.0), "the field of view is 0, but must be more than 0 and less than 180 degrees"),
@@ -170,6 +250,10 @@ fn numbers_that_make_no_camera_are_named() {
         (
             new(View { look_at: FRONT.position, ..FRONT }, 40.0, 1.0),
             "the camera at [0, 0, 0] cannot look at [0, 0, 0]: the two must be finite and different points",
+        ),
+        (
+            Orthographic::new(&FRONT, 0.0, 1.0).unwrap_err().to_string(),
+            "the height of the picture is 0, but must be positive",
         ),
         (
             message(Perspective::new(&FRONT, 40.0, 1.0).unwrap().with_lens(-0.1, 1.0)),

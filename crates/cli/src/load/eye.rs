@@ -3,17 +3,19 @@ use crate::{
     args::{CameraArgs, Compat},
     failure::Failure,
 };
-use formats::load::CameraSettings;
+use formats::load::{CameraSettings, Projection};
 use glam::Vec3;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use sunfleck::{
-    camera::{Perspective, View},
+    camera::{Camera, Unrolling, View},
     film::FilmSpec,
 };
 
-/// A perspective camera as plain numbers.
+/// A camera as plain numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct Eye {
+    #[serde(serialize_with = "kind")]
+    projection: Projection,
     position: [f32; 3],
     look_at: [f32; 3],
     up: [f32; 3],
@@ -31,6 +33,20 @@ pub(crate) struct Eye {
     shift: [f32; 2],
 }
 
+fn kind_name(projection: Projection) -> &'static str {
+    match projection {
+        Projection::Perspective => "perspective",
+        Projection::Orthographic(_) => "orthographic",
+        Projection::Spherical(Unrolling::Equirectangular) => "spherical, by longitude and latitude",
+        Projection::Spherical(Unrolling::EqualArea) => "spherical, of equal areas",
+    }
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
+fn kind<S: Serializer>(projection: &Projection, to: S) -> Result<S::Ok, S::Error> {
+    to.serialize_str(kind_name(*projection))
+}
+
 impl Eye {
     pub(crate) fn new(said: &CameraArgs, file: &CameraSettings, compat: Option<Compat>) -> Self {
         let position = said.camera_position.unwrap_or(file.view.position);
@@ -38,6 +54,7 @@ impl Eye {
         // NRenderer's default of 0.1 puts the plane in focus in front of nearly everything.
         let default_focus = if compat.is_some() { file.focus_distance } else { position.distance(look_at) };
         Self {
+            projection: if said.fov.is_some() { Projection::Perspective } else { file.projection },
             position: position.to_array(),
             look_at: look_at.to_array(),
             up: said.up.unwrap_or(file.view.up).to_array(),
@@ -51,9 +68,10 @@ impl Eye {
     }
 
     /// The camera itself.
-    pub(super) fn open(&self) -> Result<Perspective, Failure> {
+    pub(super) fn open(&self) -> Result<Camera, Failure> {
         let [position, look_at, up] = [self.position, self.look_at, self.up].map(Vec3::from_array);
         let settings = CameraSettings {
+            projection: self.projection,
             view: View { position, look_at, up },
             fov: self.fov,
             aperture: self.aperture,
@@ -69,8 +87,13 @@ impl Eye {
     pub(crate) fn words(&self) -> String {
         let at = |v: [f32; 3]| v.map(|x| x.to_string()).join(",");
         let Self { fov, aspect, aperture, focus, .. } = self;
+        let kind = match self.projection {
+            Projection::Perspective => format!("fov {fov}°, aspect {aspect}"),
+            Projection::Orthographic(height) => format!("orthographic, {height} high, aspect {aspect}"),
+            Projection::Spherical(_) => kind_name(self.projection).to_owned(),
+        };
         let lens = if *aperture > 0.0 { format!(", aperture {aperture}, focus {focus}") } else { String::new() };
-        format!("at {} looking at {}, fov {fov}°, aspect {aspect}{lens}", at(self.position), at(self.look_at))
+        format!("at {} looking at {}, {kind}{lens}", at(self.position), at(self.look_at))
     }
 
     /// Width of the picture's plane over its height.
@@ -81,7 +104,8 @@ impl Eye {
     /// Advice where pixels are not square.
     pub(crate) fn stretch(&self, spec: &FilmSpec) -> Option<String> {
         let square = spec.width as f32 / spec.height as f32;
-        let stretched = (self.aspect / square - 1.0).abs() > 1e-3;
+        let is_plane = !matches!(self.projection, Projection::Spherical(_));
+        let stretched = is_plane && (self.aspect / square - 1.0).abs() > 1e-3;
         stretched.then(|| {
             format!("note: the picture is stretched: its aspect is {}, its pixels ask for {square}", self.aspect)
         })

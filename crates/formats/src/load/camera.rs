@@ -2,15 +2,29 @@
 
 use crate::image::Tone;
 use glam::{Vec2, Vec3};
-use sunfleck::camera::{Perspective, PerspectiveError, View};
+use sunfleck::camera::{Camera, CameraError, Orthographic, Perspective, Spherical, Unrolling, View};
 use sunfleck::film::Filter;
 
-/// A perspective camera, as plain numbers that a user may change.
+/// How a camera makes a picture of what lies before it.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Projection {
+    /// As an eye sees it, at the angle [`CameraSettings::fov`].
+    #[default]
+    Perspective,
+    /// Along parallel rays, from a plane of this height in world units.
+    Orthographic(f32),
+    /// In all directions.
+    Spherical(Unrolling),
+}
+
+/// A camera, as plain numbers that a user may change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CameraSettings {
+    /// The kind of camera.
+    pub projection: Projection,
     /// Position and direction.
     pub view: View,
-    /// Full vertical angle in degrees.
+    /// Full vertical angle in degrees, for perspective.
     pub fov: f32,
     /// Diameter of the lens in world units; 0 makes everything sharp.
     pub aperture: f32,
@@ -27,7 +41,16 @@ pub struct CameraSettings {
 impl Default for CameraSettings {
     fn default() -> Self {
         let view = View { position: Vec3::new(0.0, 0.0, -3.0), look_at: Vec3::ZERO, up: Vec3::Y };
-        Self { view, fov: 40.0, aperture: 0.0, focus_distance: 0.1, aspect: None, is_mirrored: false, shift: [0.0; 2] }
+        Self {
+            projection: Projection::Perspective,
+            view,
+            fov: 40.0,
+            aperture: 0.0,
+            focus_distance: 0.1,
+            aspect: None,
+            is_mirrored: false,
+            shift: [0.0; 2],
+        }
     }
 }
 
@@ -36,10 +59,24 @@ impl CameraSettings {
     ///
     /// # Errors
     /// A number out of its range.
-    pub fn build(&self, aspect: f32) -> Result<Perspective, PerspectiveError> {
-        let camera = Perspective::new(&self.view, self.fov, aspect)?.with_shift(Vec2::from_array(self.shift));
-        let camera = if self.is_mirrored { camera.mirrored() } else { camera };
-        if self.aperture == 0.0 { Ok(camera) } else { camera.with_lens(self.aperture, self.focus_distance) }
+    pub fn build(&self, aspect: f32) -> Result<Camera, CameraError> {
+        let (shift, lens) = (Vec2::from_array(self.shift), self.aperture != 0.0);
+        Ok(match self.projection {
+            Projection::Perspective => {
+                let camera = Perspective::new(&self.view, self.fov, aspect)?.with_shift(shift);
+                let camera = if self.is_mirrored { camera.mirrored() } else { camera };
+                if lens { camera.with_lens(self.aperture, self.focus_distance)? } else { camera }.into()
+            }
+            Projection::Orthographic(height) => {
+                let camera = Orthographic::new(&self.view, height, aspect)?.with_shift(shift);
+                let camera = if self.is_mirrored { camera.mirrored() } else { camera };
+                if lens { camera.with_lens(self.aperture, self.focus_distance)? } else { camera }.into()
+            }
+            Projection::Spherical(unrolling) => {
+                let camera = Spherical::new(&self.view, unrolling)?;
+                if self.is_mirrored { camera.mirrored() } else { camera }.into()
+            }
+        })
     }
 }
 

@@ -10,7 +10,7 @@ mod target;
 #[cfg(test)]
 mod tests;
 
-pub use camera::{CameraSettings, Hints, RenderDefaults};
+pub use camera::{CameraSettings, Hints, Projection, RenderDefaults};
 pub use target::Target;
 
 use crate::diagnostic::{Diagnostic, Error};

@@ -9,11 +9,13 @@
 //! What pbrt means is taken from its documented file format (pbrt.org, "pbrt-v4 Input File Format" and the one of
 //! version 3) and from the book, Pharr, Jakob & Humphreys, "Physically Based Rendering", 2016 and 2023.
 
+mod cameras;
 mod curve;
 mod curved;
 mod directives;
 mod import;
 mod infinite;
+mod lens;
 mod lexer;
 mod lights;
 mod materials;

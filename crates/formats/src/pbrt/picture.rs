@@ -1,13 +1,11 @@
 //! `Camera`, `Film`, `PixelFilter`, `Sampler` and `Integrator`: what the file says about the picture.
 
-use super::directives::{Importer, bad, unknown, warning};
+use super::directives::{Importer, unknown, warning};
 use super::params::{Found, Params};
-use crate::load::{CameraSettings, Hints};
-use glam::{DAffine3, DVec2, DVec3, Vec2};
+use crate::load::Hints;
+use glam::{DAffine3, DVec2};
 use std::ops::RangeInclusive;
-use sunfleck::camera::View;
 
-const CAMERAS: [&str; 5] = ["environment", "orthographic", "perspective", "realistic", "spherical"];
 const FILMS: [&str; 4] = ["gbuffer", "image", "rgb", "spectral"];
 
 /// Sides of a picture in pixels.
@@ -21,23 +19,25 @@ pub(super) struct Picture {
     pub(super) integrator: Option<(String, Params)>,
     /// Whether the file is of version 3, which has other units of light.
     pub(super) is_version_3: bool,
-    film: Film,
+    pub(super) film: Film,
 }
 
 /// Size and sensitivity.
 #[derive(Clone, Copy)]
-struct Film {
+pub(super) struct Film {
     /// Pixels of the whole picture, cropped or not.
-    size: [u32; 2],
+    pub(super) size: [u32; 2],
     /// The part that is rendered: first and last pixel of each axis.
     crop: [[u32; 2]; 2],
     /// What pixel values are multiplied by.
     scale: f32,
+    /// Millimetres from corner to corner.
+    pub(super) diagonal: f64,
 }
 
 impl Default for Picture {
     fn default() -> Self {
-        let film = Film { size: [1280, 720], crop: [[0, 1280], [0, 720]], scale: 1.0 };
+        let film = Film { size: [1280, 720], crop: [[0, 1280], [0, 720]], scale: 1.0, diagonal: 35.0 };
         Self { camera: None, sampler: None, filter: None, integrator: None, is_version_3: false, film }
     }
 }
@@ -71,20 +71,14 @@ impl Importer<'_> {
         if scale <= 0.0 {
             return Err(params.bad("pbrt::value", "the film's `scale` and `iso` must be greater than 0"));
         }
-        self.picture.film = Film { size, crop, scale: scale as f32 };
+        let diagonal = params.number("diagonal", 35.0)?;
+        self.picture.film = Film { size, crop, scale: scale as f32, diagonal };
         let sensor = params.string("sensor")?.unwrap_or("cie1931").to_owned();
         if sensor != "cie1931" || params.get("whitebalance").is_some() {
             let message = "colours are those of the standard observer, whatever the sensor and its white balance";
             self.warn_once("pbrt::sensor", "", || params.at.tell(warning("pbrt::sensor", message), ""));
         }
-        params.ignore(&[
-            "filename",
-            "diagonal",
-            "savefp16",
-            "maxcomponentvalue",
-            "maxsampleluminance",
-            "coordinatesystem",
-        ]);
+        params.ignore(&["filename", "savefp16", "maxcomponentvalue", "maxsampleluminance", "coordinatesystem"]);
         params.ignore(&["nbuckets", "lambdamin", "lambdamax"]);
         self.tell_unused(params);
         Ok(())
@@ -97,54 +91,16 @@ impl Importer<'_> {
         let camera = self.picture.camera.take();
         let hints = self.hints(width, height)?;
         self.target.hints = Some(hints);
-        if let Some((name, params, camera_from_world)) = camera {
-            if !CAMERAS.contains(&name.as_str()) {
-                return Err(unknown(&params.at, "camera", &name, CAMERAS));
-            }
-            if name != "perspective" {
-                let message = format!("the camera `{name}` is shown in perspective");
-                self.warn_once("pbrt::camera", "", || params.at.tell(warning("pbrt::camera", message), ""));
-            }
-            let settings = self.camera_settings(&params, camera_from_world)?;
-            self.target.camera = Some(settings);
-            params.ignore(&["shutteropen", "shutterclose", "lensfile", "aperturediameter", "filmdiag", "mapping"]);
-            self.tell_unused(&params);
-        } else {
-            let world_from_camera = DAffine3::IDENTITY;
-            let settings = look(world_from_camera, [Vec2::splat(-1.0), Vec2::splat(1.0)], 90.0);
-            self.target.camera = Some(settings);
-        }
+        let Some((name, params, camera_from_world)) = camera else {
+            let window = [DVec2::splat(-1.0), DVec2::splat(1.0)];
+            self.target.camera = Some(self.picture.film.look(DAffine3::IDENTITY, window, Some(90.0)));
+            return Ok(());
+        };
+        let settings = self.camera_settings(&name, &params, camera_from_world)?;
+        self.target.camera = Some(settings);
+        params.ignore(&["shutteropen", "shutterclose", "lensfile", "aperturediameter", "filmdiag", "mapping"]);
+        self.tell_unused(&params);
         Ok(())
-    }
-
-    fn camera_settings(&self, params: &Params, camera_from_world: DAffine3) -> Found<CameraSettings> {
-        let Film { size, crop, .. } = self.picture.film;
-        let fov = params.number("fov", 90.0)?;
-        if fov <= 0.0 || fov >= 180.0 {
-            return Err(params.bad("pbrt::value", "the field of view must be more than 0 and less than 180 degrees"));
-        }
-        let window = screen(params, size)?;
-        // The part of the window that is rendered. Rows run downwards, the window's y upwards.
-        let part = |axis: usize, pixel: u32| f64::from(pixel) / f64::from(size[axis]);
-        let [[x0, x1], [y0, y1]] = crop;
-        let span = window[1] - window[0];
-        let low = window[0] + span * DVec2::new(part(0, x0), 1.0 - part(1, y1));
-        let high = window[0] + span * DVec2::new(part(0, x1), 1.0 - part(1, y0));
-        let world_from_camera = camera_from_world.inverse();
-        if !world_from_camera.is_finite() || world_from_camera.matrix3.determinant() == 0.0 {
-            return Err(bad(&params.at, "pbrt::transform", "the camera is squeezed flat by its transformation"));
-        }
-        let settings = look(world_from_camera, [low.as_vec2(), high.as_vec2()], fov);
-        let scale = world_from_camera.transform_vector3(DVec3::Z).length() as f32;
-        let focus = params.number("focaldistance", 1e6)? as f32 * scale;
-        let radius = params.number("lensradius", 0.0)? as f32 * scale;
-        if radius < 0.0 || focus <= 0.0 {
-            return Err(params.bad("pbrt::value", "the lens needs a radius of 0 or more and a focal distance above 0"));
-        }
-        let look_at = settings.view.position + (settings.view.look_at - settings.view.position) * focus.min(1e6);
-        let focused = radius > 0.0 && focus < 1e6;
-        let view = if focused { View { look_at, ..settings.view } } else { settings.view };
-        Ok(CameraSettings { aperture: 2.0 * radius, focus_distance: focus, view, ..settings })
     }
 
     /// How the file wants to be rendered.
@@ -189,6 +145,18 @@ impl Importer<'_> {
     }
 }
 
+impl Film {
+    /// The part of a window that is rendered. Rows run downwards, the window's y upwards.
+    pub(super) fn cropped(&self, window: [DVec2; 2]) -> [DVec2; 2] {
+        let part = |axis: usize, pixel: u32| f64::from(pixel) / f64::from(self.size[axis]);
+        let [[x0, x1], [y0, y1]] = self.crop;
+        let span = window[1] - window[0];
+        let low = window[0] + span * DVec2::new(part(0, x0), 1.0 - part(1, y1));
+        let high = window[0] + span * DVec2::new(part(0, x1), 1.0 - part(1, y0));
+        [low, high]
+    }
+}
+
 /// The part of the picture that is rendered, in pixels.
 fn crop(params: &Params, size: [u32; 2]) -> Found<[[u32; 2]; 2]> {
     let whole = [[0, size[0]], [0, size[1]]];
@@ -210,43 +178,4 @@ fn crop(params: &Params, size: [u32; 2]) -> Found<[[u32; 2]; 2]> {
         crop[axis] = [from, to];
     }
     Ok(crop)
-}
-
-/// The window of the picture at unit distance over tan(fov/2): the shorter side spans -1 to 1.
-fn screen(params: &Params, size: [u32; 2]) -> Found<[DVec2; 2]> {
-    let aspect = f64::from(size[0]) / f64::from(size[1]);
-    let aspect = params.maybe_number("frameaspectratio")?.filter(|a| *a > 0.0).unwrap_or(aspect);
-    if let Some(w) = params.numbers("screenwindow", 4)? {
-        if w[0] < w[1] && w[2] < w[3] {
-            return Ok([DVec2::new(w[0], w[2]), DVec2::new(w[1], w[3])]);
-        }
-        return Err(params.bad("pbrt::value", "`screenwindow` is empty"));
-    }
-    let corner = if aspect > 1.0 { DVec2::new(aspect, 1.0) } else { DVec2::new(1.0, 1.0 / aspect) };
-    Ok([-corner, corner])
-}
-
-/// The camera that sees the window from `low` to `high` (over tan(fov/2)).
-fn look(world_from_camera: DAffine3, [low, high]: [Vec2; 2], fov: f64) -> CameraSettings {
-    let m = world_from_camera.matrix3;
-    let [x, y, z] = [m.x_axis, m.y_axis, m.z_axis];
-    let position = world_from_camera.translation;
-    // Uneven scaling stretches the picture.
-    let stretch = Vec2::new((x.length() / z.length()) as f32, (y.length() / z.length()) as f32);
-    let size = (high - low) * stretch * (fov.to_radians() * 0.5).tan() as f32;
-    let centre = 0.5 * (high + low) * stretch * (fov.to_radians() * 0.5).tan() as f32;
-    CameraSettings {
-        view: View {
-            position: position.as_vec3(),
-            look_at: (position + z.normalize_or(DVec3::Z)).as_vec3(),
-            up: y.normalize_or(DVec3::Y).as_vec3(),
-        },
-        fov: 2.0 * (0.5 * size.y).atan().to_degrees(),
-        aspect: Some(size.x / size.y),
-        shift: (centre / size.y).to_array(),
-        // Looking along z with y up, a camera of ours has -x at its right.
-        is_mirrored: x.dot(z.cross(y)) < 0.0,
-        aperture: 0.0,
-        focus_distance: 1.0,
-    }
 }

@@ -2,9 +2,15 @@
 //!
 //! Places on the picture are `raster` coordinates in [0, 1]²: x to the right, y **down**, row 0 on top. To add a model:
 //! write `camera/<name>.rs` implementing [`Project`] and one word in `cameras!`.
+mod frame;
+mod orthographic;
 mod perspective;
+mod spherical;
 
-pub use perspective::{Perspective, PerspectiveError, View};
+pub use frame::{CameraError, View};
+pub use orthographic::Orthographic;
+pub use perspective::Perspective;
+pub use spherical::{Spherical, Unrolling};
 
 use crate::math::Ray;
 use glam::{Vec2, Vec3};
@@ -14,8 +20,42 @@ use glam::{Vec2, Vec3};
 pub struct CameraRay {
     /// Origin and unit direction.
     pub ray: Ray,
-    /// Solid angle (sr) per unit of raster area at this place; divided by the number of pixels, one pixel's.
-    pub solid_angle: f32,
+    /// What a unit of raster area covers at this place.
+    pub spread: Spread,
+}
+
+/// How far apart the rays of neighbouring places are: what a unit of raster area covers, or one pixel.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Spread {
+    /// They share an origin: solid angle (sr).
+    SolidAngle(f32),
+    /// They are parallel: area across them (world units²).
+    Area(f32),
+}
+
+impl Spread {
+    /// Area (world units²) across the rays, after the way `distance`.
+    #[inline]
+    pub fn area_at(self, distance: f32) -> f32 {
+        match self {
+            Self::SolidAngle(w) => w * (distance * distance),
+            Self::Area(a) => a,
+        }
+    }
+    /// Width (world units) across the rays of a square that covers [`Spread::area_at`].
+    #[inline]
+    pub fn width_at(self, distance: f32) -> f32 {
+        self.area_at(distance).sqrt()
+    }
+    /// The share of one of `pixels` pixels.
+    #[inline]
+    #[must_use]
+    pub fn of_pixel(self, pixels: usize) -> Self {
+        match self {
+            Self::SolidAngle(w) => Self::SolidAngle(w / pixels as f32),
+            Self::Area(a) => Self::Area(a / pixels as f32),
+        }
+    }
 }
 
 /// A point of the scene as the camera sees it.
@@ -27,7 +67,7 @@ pub struct CameraSample {
     pub wi: Vec3,
     /// Where on the picture's plane; may lie outside [0, 1]², where only a wide pixel filter reaches.
     pub raster: Vec2,
-    /// `1 / (solid_angle · d²)`: a path of flux Φ that scatters `f·cos` toward the lens adds
+    /// `1 / `[`Spread::area_at`]` (distance)`: a path of flux Φ that scatters `f·cos` toward the lens adds
     /// `Φ·f·cos·importance` per unit of raster area.
     pub importance: f32,
 }
@@ -63,7 +103,6 @@ macro_rules! cameras {
             fn between(&self, to: &Self, time: f32) -> Option<Self> {
                 match (self, to) {
                     $((Self::$name(c), Self::$name(to)) => c.between(to, time).map(Self::$name),)*
-                    #[allow(unreachable_patterns, reason = "with one model there are no others")]
                     _ => None,
                 }
             }
@@ -71,4 +110,4 @@ macro_rules! cameras {
     };
 }
 
-cameras![Perspective];
+cameras![Perspective, Orthographic, Spherical];

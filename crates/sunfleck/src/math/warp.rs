@@ -3,7 +3,7 @@
 //! Every `square_to_x` has a `square_to_x_pdf` (or a stated constant density) and is checked against it by χ² below.
 use super::Local;
 use glam::{Vec2, Vec3};
-use std::f32::consts::{FRAC_1_PI, FRAC_PI_4, PI, TAU};
+use std::f32::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI, TAU};
 
 /// Uniform on the unit disk, density 1/π (Shirley & Chiu 1997, concentric map: neighbours stay neighbours).
 #[inline]
@@ -49,6 +49,35 @@ pub fn square_to_sphere(u: Vec2) -> Vec3 {
     let (sin, cos) = (TAU * u.y).sin_cos();
     let r = (1.0 - z * z).max(0.0).sqrt();
     Vec3::new(r * cos, r * sin, z)
+}
+
+/// The map of the unit square to the sphere that keeps areas, density 1/4π: the diamond in the middle is the upper half
+/// (Clarberg 2008, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD"). Its inverse is [`sphere_to_equal_area_square`].
+#[inline]
+pub fn square_to_equal_area_sphere(u: Vec2) -> Vec3 {
+    let p = 2.0 * u - 1.0;
+    let a = p.abs();
+    // How far inside the diamond, negative outside of it.
+    let inside = 1.0 - a.x - a.y;
+    let r = 1.0 - inside.abs();
+    let phi = if r == 0.0 { 0.0 } else { FRAC_PI_4 * ((a.y - a.x) / r + 1.0) };
+    let z = (1.0 - r * r).copysign(inside);
+    let (sin, cos) = phi.sin_cos();
+    let across = r * (2.0 - r * r).max(0.0).sqrt();
+    Vec3::new((across * cos).copysign(p.x), (across * sin).copysign(p.y), z)
+}
+
+/// The place in the unit square of the unit direction `d`: the inverse of [`square_to_equal_area_sphere`].
+#[inline]
+pub fn sphere_to_equal_area_square(d: Vec3) -> Vec2 {
+    let a = d.abs();
+    let r = (1.0 - a.z).max(0.0).sqrt();
+    let phi = if a.x == 0.0 && a.y == 0.0 { 0.0 } else { a.y.atan2(a.x) / FRAC_PI_2 };
+    let (mut u, mut v) = (r - phi * r, phi * r);
+    if d.z < 0.0 {
+        (u, v) = (1.0 - v, 1.0 - u);
+    }
+    0.5 * (Vec2::new(u.copysign(d.x), v.copysign(d.y)) + 1.0)
 }
 
 /// Uniform in the cone of half-angle `acos(cos_max)` about +z. `one_minus_cos_max` avoids cancellation in thin cones.
@@ -105,6 +134,21 @@ mod tests {
         assert!((mean(|u| square_to_triangle(u).y.powi(2)) - 1.0 / 6.0).abs() < 1e-3);
         let c = 0.25;
         assert!((mean(|u| square_to_cone(u, c).0.z) - (1.0 - f64::from(c) / 2.0)).abs() < 1e-3);
+    }
+
+    #[test]
+    fn the_equal_area_map_keeps_areas_and_has_its_inverse() {
+        assert!((mean(|u| square_to_equal_area_sphere(u).z.powi(2)) - 1.0 / 3.0).abs() < 1e-3);
+        assert!((mean(|u| square_to_equal_area_sphere(u).x.powi(2)) - 1.0 / 3.0).abs() < 1e-3);
+        assert!(mean(|u| square_to_equal_area_sphere(u).y).abs() < 1e-6);
+        for u in lattice() {
+            let d = square_to_equal_area_sphere(u);
+            assert!((d.length() - 1.0).abs() < 1e-5);
+            assert!(sphere_to_equal_area_square(d).distance(u) < 1e-4, "{u} {d}");
+        }
+        for (d, u) in [(Vec3::Z, [0.5, 0.5]), (Vec3::X, [1.0, 0.5]), (-Vec3::Y, [0.5, 0.0])] {
+            assert!(sphere_to_equal_area_square(d).distance(Vec2::from(u)) < 1e-6, "{d}");
+        }
     }
 
     #[test]

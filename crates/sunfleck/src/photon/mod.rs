@@ -38,5 +38,5 @@ pub use map::{NearestMap, RadiusMap};
 pub use radii::Radii;
 pub use radius::{Reach, Schedule};
 pub use source::{Emission, Source};
-pub use survey::{Sighting, pixel_angle, survey};
+pub use survey::{Sighting, survey};
 pub use uniformity::Evenness;

@@ -1,5 +1,4 @@
 //! How far a gather reaches, over the picture: from what its pixels cover, through mirrors and glass.
-use super::survey::pixel_angle;
 use crate::{
     bsdf::Transport,
     camera::Project,
@@ -132,7 +131,7 @@ fn footprint(world: &World, spec: FilmSpec, limits: Limits, raster: Vec2, mut sa
         let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
         let mut first = First { found: None };
         walk(world, &start, &limits, &mut sampler.clone(), &mut first);
-        first.found.map(|(at, travelled)| (at, pixel_angle(camera.solid_angle, spec) * travelled))
+        first.found.map(|(at, travelled)| (at, camera.spread.of_pixel(spec.pixels()).width_at(travelled)))
     };
     let (at, width) = follow(raster)?;
     let pixel = Vec2::new(1.0 / spec.width as f32, 1.0 / spec.height as f32);

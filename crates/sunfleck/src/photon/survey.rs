@@ -1,7 +1,7 @@
 //! What the camera sees: a sample of the places where gathers will happen, taken before the first pass.
 use crate::{
     bsdf::Transport,
-    camera::Project,
+    camera::{Project, Spread},
     film::FilmSpec,
     sampler::{Domain, Sampler},
     scene::{MID_SHUTTER, Scene},
@@ -23,12 +23,6 @@ pub struct Sighting {
 /// Camera paths of a survey: medians to about 2 %.
 const PATHS: u64 = 1024;
 
-/// The angle (radians) that a pixel spans: its width at distance 1. `solid_angle` is that of [`crate::camera::CameraRay`].
-#[inline]
-pub fn pixel_angle(solid_angle: f32, spec: FilmSpec) -> f32 {
-    (solid_angle / spec.pixels() as f32).sqrt()
-}
-
 /// Follows camera paths, spread over the picture, through delta surfaces to the first connectible one. Paths that meet
 /// none are left out.
 pub fn survey(scene: &Scene, spec: FilmSpec, limits: &Limits, seed: u64) -> Vec<Sighting> {
@@ -37,7 +31,7 @@ pub fn survey(scene: &Scene, spec: FilmSpec, limits: &Limits, seed: u64) -> Vec<
         let mut sampler = Sampler::new(seed, Domain::Prepare, u64::MAX, index);
         let camera = world.camera().ray(sampler.next_2d(), sampler.next_2d());
         let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
-        let mut first = First { angle: pixel_angle(camera.solid_angle, spec), found: None };
+        let mut first = First { pixel: camera.spread.of_pixel(spec.pixels()), found: None };
         walk(&world, &start, limits, &mut sampler, &mut first);
         first.found
     };
@@ -45,7 +39,7 @@ pub fn survey(scene: &Scene, spec: FilmSpec, limits: &Limits, seed: u64) -> Vec<
 }
 
 struct First {
-    angle: f32,
+    pixel: Spread,
     found: Option<Sighting>,
 }
 
@@ -54,7 +48,7 @@ impl Visit for First {
         if !a.at.is_connectible() {
             return Step::OnIfDelta;
         }
-        self.found = Some(Sighting { p: a.at.p, width: self.angle * a.travelled });
+        self.found = Some(Sighting { p: a.at.p, width: self.pixel.width_at(a.travelled) });
         Step::Stop
     }
 }

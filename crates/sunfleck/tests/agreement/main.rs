@@ -108,6 +108,8 @@ agreement![
     mirror_room,
     instance,
     thin_lens,
+    parallel_rays,
+    all_around,
     mesh_light,
     sphere_light,
     spot_light,

@@ -8,7 +8,7 @@ use sunfleck::{
         ConductorMaterial, CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, MirrorMaterial, PhongMaterial,
         RoughConductorMaterial, RoughDielectricMaterial,
     },
-    camera::{Perspective, View},
+    camera::{Orthographic, Perspective, Spherical, Unrolling, View},
     light::{DirectionalLight, EnvironmentLight, PointLight, Sides, SpotLight},
     scene::{MaterialId, Scene, SceneBuilder, SurfaceDef},
     shape::{Mesh, Parallelogram, Shape, Sphere},
@@ -57,6 +57,8 @@ pub(crate) const SCENES: &[TinyScene] = &[
     tiny("mirror_room", "a mirror", LIGHT, mirror_room),
     tiny("instance", "turned, stretched and mirrored copies", NONE, instance),
     tiny("thin_lens", "depth of field", NONE, thin_lens),
+    tiny("parallel_rays", "an orthographic camera with lenses", NONE, parallel_rays),
+    tiny("all_around", "a spherical camera", NONE, all_around),
     tiny("mesh_light", "a lamp of unlike triangles", NONE, mesh_light),
     tiny("sphere_light", "a shining ball", NONE, sphere_light),
     tiny("spot_light", "a spot light", NONE, spot_light),
@@ -245,6 +247,27 @@ fn thin_lens() -> Scene {
     let grey = diffuse(&mut b, Vec3::splat(0.4));
     b.add(ball([0.2, -0.4, 0.5], 0.35), grey);
     b.camera(eye().with_lens(0.5, 3.0).unwrap());
+    emit(&mut b, lamp(0.8, 0.95), Vec3::splat(8.0), Sides::One);
+    finish(b)
+}
+
+fn parallel_rays() -> Scene {
+    let mut b = room();
+    let grey = diffuse(&mut b, Vec3::splat(0.4));
+    b.add(ball([0.2, -0.4, 0.5], 0.35), grey);
+    let view = View { position: Vec3::new(0.3, 0.2, 3.4), look_at: Vec3::ZERO, up: Vec3::Y };
+    b.camera(Orthographic::new(&view, 2.2, 1.0).unwrap().with_lens(0.5, 3.0).unwrap());
+    emit(&mut b, lamp(0.8, 0.95), Vec3::splat(8.0), Sides::One);
+    finish(b)
+}
+
+/// The poles of the picture look at the floor and at the lamp.
+fn all_around() -> Scene {
+    let mut b = room();
+    let grey = diffuse(&mut b, Vec3::splat(0.4));
+    b.add(ball([0.2, -0.4, 0.5], 0.35), grey);
+    let view = View { position: Vec3::new(-0.2, 0.1, 0.2), look_at: Vec3::ZERO, up: Vec3::Y };
+    b.camera(Spherical::new(&view, Unrolling::Equirectangular).unwrap());
     emit(&mut b, lamp(0.8, 0.95), Vec3::splat(8.0), Sides::One);
     finish(b)
 }

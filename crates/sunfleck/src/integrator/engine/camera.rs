@@ -11,6 +11,7 @@ use super::{
 };
 use crate::{
     bsdf::Transport,
+    camera::Spread,
     film::Counts,
     photon::{CameraEnd, Disc, Kernel, Radii, RadiusMap, Source},
     sampler::Sampler,
@@ -52,8 +53,8 @@ pub(super) struct Look<'w> {
     eye: &'w Eye<'w>,
     /// [`Eye::rule`], with the merging of this place on the picture.
     rule: Rule,
-    /// Density (1/sr) of the camera's first direction, one path a pixel.
-    pdf_camera: f32,
+    /// What the path's pixel covers.
+    pixel: Spread,
     radius: f32,
     /// [`Rule::eta`] of the radius.
     eta: f32,
@@ -81,7 +82,7 @@ impl<'w> Look<'w> {
         Self {
             eye,
             rule,
-            pdf_camera: start.pdf,
+            pixel: start.pixel,
             radius,
             eta: rule.eta(radius),
             partner: start.partner,
@@ -126,8 +127,8 @@ pub(super) struct EyeStart {
     pub(super) raster: glam::Vec2,
     /// Point on the lens.
     pub(super) from: Vec3,
-    /// Density (1/sr) of its direction, one path a pixel.
-    pub(super) pdf: f32,
+    /// What its pixel covers.
+    pub(super) pixel: Spread,
     /// Light path to connect to.
     pub(super) partner: usize,
 }
@@ -139,7 +140,7 @@ impl Visit for Look<'_> {
         if a.scatterings == 0 {
             self.mirrored = !a.at.is_connectible();
         }
-        let sums = self.track.arrive_from_camera(&self.rule, self.pdf_camera, a.scatterings, a.at);
+        let sums = self.track.arrive_from_camera(&self.rule, self.pixel, a.scatterings, a.at);
         self.meet(a, &sums);
         // Drawn at every vertex, so that the dimensions of what follows do not depend on the material.
         let (u_light, u) = (sampler.next_1d(), sampler.next_2d());

@@ -109,10 +109,10 @@ impl Rule {
         Sums { vcm, vc, ..Sums::default() }
     }
     /// The sums of a camera subpath at its first vertex: the sampler before it is the connection to the lens, made
-    /// for each light path. `pdf`: density (1/sr) of one camera path a pixel.
+    /// for each light path. `pixel`: area across the path that one camera path is meant for.
     #[inline]
-    pub(super) fn leave_camera(&self, pdf: f32, d2: f32, cos: f32) -> Sums {
-        let image = if self.on.light_image { self.heuristic.of(self.paths * d2 / (pdf * cos)) } else { 0.0 };
+    pub(super) fn leave_camera(&self, pixel: f32, cos: f32) -> Sums {
+        let image = if self.on.light_image { self.heuristic.of(self.paths * pixel / cos) } else { 0.0 };
         Sums { image, shared: 1.0, ..Sums::default() }
     }
     /// Whether light vertices after so many scatterings are connected to the lens. Direct light is not where lights are

@@ -26,9 +26,9 @@ pub use techniques::{Heuristic, Merge, Technique, Techniques};
 
 use super::{Integrator, ParamError, ParamInfo, Params, Pass, PassRenderer, eye_ray::EyeRay};
 use crate::{
-    camera::Project,
+    camera::{Project, Spread},
     film::{FilmSpec, PassImage},
-    photon::{Audit, Evenness, Kernel, Radii, RadiusMap, Schedule, Source, Training, pixel_angle},
+    photon::{Audit, Evenness, Kernel, Radii, RadiusMap, Schedule, Source, Training},
     scene::{MID_SHUTTER, Scene, World},
     spectrum::Wavelengths,
     walk::{Limits, walk, walk_evenly},
@@ -150,11 +150,8 @@ impl Integrator for Engine {
         let seen = Radii::from_footprints(scene, spec, &self.limits, seed, PIXELS, fallback);
         let paths = self.paths.unwrap_or((spec.pixels() as u64).clamp(*PATHS.start(), *PATHS.end()));
         // The typical radius is PIXELS pixels wide; how many of those make one degree?
-        let pixel = pixel_angle(
-            scene.world(Wavelengths::Rgb, MID_SHUTTER).camera().ray(Vec2::splat(0.5), Vec2::splat(0.5)).solid_angle,
-            spec,
-        );
-        let degree = seen.typical() / PIXELS * (1f32.to_radians().tan() / pixel);
+        let middle = scene.world(Wavelengths::Rgb, MID_SHUTTER).camera().ray(Vec2::splat(0.5), Vec2::splat(0.5)).spread;
+        let degree = seen.typical() / PIXELS * pixels_of_degree(middle, spec);
         let mut prepared = Prepared {
             scene,
             engine: self,
@@ -178,6 +175,14 @@ impl Integrator for Engine {
         }
         prepared.parts = prepared.count_parts(spec, seed);
         Box::new(prepared)
+    }
+}
+
+/// How many pixels wide a degree is; where rays are parallel, 40 of them are as high as the picture.
+fn pixels_of_degree(spread: Spread, spec: FilmSpec) -> f32 {
+    match spread.of_pixel(spec.pixels()) {
+        Spread::SolidAngle(pixel) => 1f32.to_radians().tan() / pixel.sqrt(),
+        Spread::Area(_) => spec.height as f32 / 40.0,
     }
 }
 
@@ -297,7 +302,7 @@ impl Prepared<'_> {
             let start = EyeStart {
                 raster: ray.raster,
                 from: ray.camera.ray.o,
-                pdf: spec.pixels() as f32 / ray.camera.solid_angle,
+                pixel: ray.camera.spread.of_pixel(spec.pixels()),
                 partner: (partner as usize).min(job.count().saturating_sub(1) as usize),
             };
             let mut look = Look::new(&eye, start, counts);

@@ -1,6 +1,9 @@
 //! The sums of [`super::mis`] along a walk, from vertex to vertex.
 use super::mis::{Leg, Rule, Sums, Turn};
-use crate::scene::{Interaction, Scattered};
+use crate::{
+    camera::Spread,
+    scene::{Interaction, Scattered},
+};
 
 /// Sums of a walk: those at its last vertex, and what happened there.
 #[derive(Clone, Copy)]
@@ -35,11 +38,11 @@ impl Track {
             Departure::Scattered { turn: Turn { forward: s.pdf, back, cos }, merges, sharing: sharing(back) }
         };
     }
-    /// The sums of a camera subpath at `at`, reached after so many scatterings. `pdf`: as [`Rule::leave_camera`] takes it.
+    /// The sums of a camera subpath at `at`, reached after so many scatterings. `pixel`: what one covers.
     #[inline]
-    pub(super) fn arrive_from_camera(&self, rule: &Rule, pdf: f32, scatterings: u32, at: &Interaction) -> Sums {
+    pub(super) fn arrive_from_camera(&self, rule: &Rule, pixel: Spread, scatterings: u32, at: &Interaction) -> Sums {
         let leg = Leg::to(at);
-        if scatterings == 0 { rule.leave_camera(pdf, leg.d2, leg.cos) } else { self.after(rule, leg) }
+        if scatterings == 0 { rule.leave_camera(pixel.area_at(at.distance), leg.cos) } else { self.after(rule, leg) }
     }
     /// [`Track::depart`] of a camera subpath.
     #[inline]

@@ -1,9 +1,9 @@
 //! What the camera needs: places where photons will be gathered, and what its paths meet on the way.
 use crate::{
     bsdf::Transport,
-    camera::Project,
+    camera::{Project, Spread},
     film::FilmSpec,
-    photon::{Reach, Sighting, pixel_angle},
+    photon::{Reach, Sighting},
     sampler::{Domain, Sampler},
     scene::{Interaction, World},
     spectrum::Spectrum,
@@ -46,7 +46,7 @@ impl Needs {
             let mut sampler = Sampler::new(seed, Domain::Prepare, u64::MAX - 1, index);
             let camera = world.camera().ray(sampler.next_2d(), sampler.next_2d());
             let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
-            let mut glance = Glance { world, angle: pixel_angle(camera.solid_angle, spec), ..Glance::new(world) };
+            let mut glance = Glance::new(world, camera.spread.of_pixel(spec.pixels()));
             walk(world, &start, &limits, &mut sampler, &mut glance);
             (glance.spot, glance.bent, glance.met)
         };
@@ -64,15 +64,15 @@ impl Needs {
 /// Follows one camera path to the second place where photons could be gathered.
 struct Glance<'w> {
     world: &'w World<'w>,
-    angle: f32,
+    pixel: Spread,
     spot: Option<Spot>,
     bent: Vec<Vec3>,
     met: Vec<Vec3>,
 }
 
 impl<'w> Glance<'w> {
-    fn new(world: &'w World<'w>) -> Self {
-        Self { world, angle: 0.0, spot: None, bent: Vec::new(), met: Vec::new() }
+    fn new(world: &'w World<'w>, pixel: Spread) -> Self {
+        Self { world, pixel, spot: None, bent: Vec::new(), met: Vec::new() }
     }
     /// The last scattering turns out to have been from a delta lobe.
     fn bend(&mut self, scatterings: u32, delta: bool) {
@@ -93,7 +93,7 @@ impl Visit for Glance<'_> {
             return Step::Stop;
         }
         // The width of a pixel, until the radius is known.
-        let radius = self.angle * a.travelled;
+        let radius = self.pixel.width_at(a.travelled);
         let n = a.at.ng * 1f32.copysign(a.at.ng.dot(a.at.wo));
         self.spot = Some(Spot { p: a.at.p, n, radius, direct: irradiance(self.world, a.at, n, sampler) });
         Step::On

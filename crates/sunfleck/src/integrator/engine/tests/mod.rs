@@ -50,17 +50,17 @@ impl Setting<'_> {
 
     /// The sums of the camera's subpath on arrival at each vertex, and on arrival at the light.
     fn camera_sums(&self, path: &Path) -> (Vec<Sums>, Sums) {
-        let pdf = SPEC.pixels() as f32 / path.camera.solid_angle;
+        let pixel = path.camera.spread.of_pixel(SPEC.pixels());
         let mut track = Track::new();
         let sums = path.vertices.iter().enumerate().map(|(i, v)| {
-            let sums = track.arrive_from_camera(&self.rule, pdf, i as u32, &v.at);
+            let sums = track.arrive_from_camera(&self.rule, pixel, i as u32, &v.at);
             track.sums = sums;
             track.depart_from_camera(&self.rule, &v.at, &scattered(&v.at, v.wi, v.delta));
             sums
         });
         let sums = sums.collect();
         let last = match &path.end {
-            End::Surface(at) => track.arrive_from_camera(&self.rule, pdf, path.vertices.len() as u32, at),
+            End::Surface(at) => track.arrive_from_camera(&self.rule, pixel, path.vertices.len() as u32, at),
             End::Point(..) | End::Infinite(..) => track.after(&self.rule, Leg::AWAY),
         };
         (sums, last)
@@ -292,4 +292,5 @@ sums_to_one![
     weights_sum_to_one_in_parallel_light: Directional,
     weights_sum_to_one_under_a_sky: Sky,
     weights_sum_to_one_under_all_lights_through_a_lens: AllThroughLens,
+    weights_sum_to_one_under_all_lights_along_parallel_rays: AllAlongParallelRays,
 ];

@@ -1,7 +1,7 @@
 //! Whole paths from the lens to a light.
 use crate::{
     bsdf::Transport,
-    camera::{CameraRay, Project},
+    camera::{CameraRay, Project, Spread},
     light::{Emitter, LightEnd, LightId},
     math::warp::square_to_sphere,
     sampler::Sampler,
@@ -65,13 +65,16 @@ impl Path {
         path.straighten();
         (!path.vertices.is_empty()).then_some(path)
     }
-    /// Rays start off their surfaces; here legs go from vertex to vertex.
+    /// Rays start off their surfaces; here legs go from vertex to vertex. Parallel rays of the camera go where they go.
     fn straighten(&mut self) {
         let mut from = self.camera.ray.o;
         for i in 0..self.vertices.len() {
             let to = self.vertices[i].at.p - from;
             let at = &mut self.vertices[i].at;
             (at.distance, at.wo) = (to.length(), -to.normalize());
+            if i == 0 && matches!(self.camera.spread, Spread::Area(_)) {
+                at.wo = -self.camera.ray.d;
+            }
             from = at.p;
             if i > 0 {
                 self.vertices[i - 1].wi = to.normalize();

@@ -4,7 +4,7 @@ use crate::{
         ConductorMaterial, DielectricMaterial, DiffuseMaterial, MirrorMaterial, PhongMaterial, RoughConductorMaterial,
         RoughDielectricMaterial,
     },
-    camera::{Perspective, View},
+    camera::{Orthographic, Perspective, View},
     light::{DirectionalLight, EnvironmentLight, PointLight, Sides, SpotLight},
     scene::{MaterialId, Scene, SceneBuilder, SurfaceDef},
     shape::{Mesh, Parallelogram, Shape, Sphere},
@@ -22,11 +22,12 @@ pub(super) enum Lights {
     Directional,
     Sky,
     AllThroughLens,
+    AllAlongParallelRays,
 }
 
 impl Lights {
     pub(super) fn has_sky(self) -> bool {
-        matches!(self, Self::Sky | Self::AllThroughLens)
+        matches!(self, Self::Sky | Self::AllThroughLens | Self::AllAlongParallelRays)
     }
 }
 
@@ -36,8 +37,14 @@ pub(super) fn scene(lights: Lights) -> Scene {
     balls(&mut b);
     let view = View { position: Vec3::new(0.0, 0.0, 3.4), look_at: Vec3::ZERO, up: Vec3::Y };
     let eye = Perspective::new(&view, 38.0, 1.5).unwrap();
-    let all = lights == Lights::AllThroughLens;
-    b.camera(if all { eye.with_lens(0.4, 3.0).unwrap() } else { eye });
+    let all = matches!(lights, Lights::AllThroughLens | Lights::AllAlongParallelRays);
+    match lights {
+        Lights::AllThroughLens => b.camera(eye.with_lens(0.4, 3.0).unwrap()),
+        Lights::AllAlongParallelRays => {
+            b.camera(Orthographic::new(&view, 2.1, 1.5).unwrap().with_lens(0.4, 3.0).unwrap());
+        }
+        _ => b.camera(eye),
+    }
     let has = |l| all || lights == l;
     if has(Lights::Lamp) {
         shine(&mut b, lamp(0.9), Sides::One);
