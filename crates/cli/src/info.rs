@@ -3,7 +3,7 @@ use crate::{
     args::InfoArgs,
     console,
     failure::Failure,
-    load::{self, Eye, Loaded, SceneRecord, Warning},
+    load::{self, Eye, Inventory, Loaded, SceneRecord, Warning},
     table::aligned,
     words::{count, things},
 };
@@ -11,6 +11,8 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use sunfleck::{light::Emitter, scene::MID_SHUTTER, spectrum::Wavelengths};
 
+/// Materials that are told of one by one; of more, how many there are of each model.
+const MATERIALS_SHOWN: usize = 20;
 /// Lights that are told of one by one; of more, only the number is.
 const LIGHTS_SHOWN: usize = 20;
 
@@ -31,6 +33,10 @@ struct Info {
     /// How many materials there are of each model.
     materials: BTreeMap<&'static str, usize>,
     lights: Vec<LightInfo>,
+    /// Materials and textures one by one, with how often they are used, and memory.
+    inventory: Inventory,
+    /// Files that are missing.
+    missing: Vec<String>,
     /// A sphere around all geometry.
     bounds: Bounds,
     warnings: Vec<Warning>,
@@ -63,6 +69,8 @@ impl Info {
             dispersive: scene.is_dispersive(),
             materials,
             lights: scene.world(Wavelengths::Rgb, MID_SHUTTER).lights().map(light).collect(),
+            inventory: loaded.inventory.clone(),
+            missing: loaded.missing().map(str::to_owned).collect(),
             bounds: Bounds { centre: around.centre.to_array(), radius: around.radius },
             warnings: loaded.warnings().collect(),
         }
@@ -76,19 +84,65 @@ impl Info {
             ("holds", loaded.words()),
             ("bounds", format!("a sphere of radius {} around ({})", self.bounds.radius, list(self.bounds.centre))),
             ("camera", self.camera.words()),
-            ("memory", format!("{}B of ray index", count(bytes as f64))),
+            ("memory", self.memory(bytes)),
             ("hash", loaded.hash.clone()),
         ];
         if self.dispersive {
             rows.push(("color", "spectral: some material parts wavelengths".to_owned()));
         }
-        rows.extend(self.materials.iter().map(|(model, n)| ("material", format!("{n} × {model}"))));
+        rows.extend(self.material_rows().map(|row| ("material", row)));
+        rows.extend(self.texture_row().map(|row| ("textures", row)));
         let light = |l: &LightInfo| ("light", format!("{}, {} W", l.kind, list(l.power)));
         rows.extend(self.lights.iter().take(LIGHTS_SHOWN).map(light));
         if let more @ 1.. = self.lights.len().saturating_sub(LIGHTS_SHOWN) {
             rows.push(("", format!("and {}", things(more as u64, "light more", "lights more"))));
         }
+        rows.extend(self.unused_row().map(|row| ("unused", row)));
+        rows.extend(self.missing.iter().map(|m| ("missing", m.clone())));
         let rows: Vec<[String; 2]> = rows.into_iter().map(|(name, value)| [name.to_owned(), value]).collect();
         aligned(&rows)
+    }
+
+    fn memory(&self, index: usize) -> String {
+        let all = [
+            (self.inventory.geometry_bytes, "geometry"),
+            (self.inventory.texture_bytes, "textures"),
+            (index, "ray index"),
+        ];
+        all.map(|(bytes, what)| format!("{}B of {what}", count(bytes as f64))).join(", ")
+    }
+
+    fn material_rows(&self) -> Box<dyn Iterator<Item = String> + '_> {
+        let all = &self.inventory.materials;
+        if all.len() > MATERIALS_SHOWN {
+            return Box::new(self.materials.iter().map(|(model, n)| format!("{n} × {model}")));
+        }
+        Box::new(all.iter().enumerate().map(|(i, m)| {
+            let name = m.name.as_ref().map(|n| format!(" `{n}`")).unwrap_or_default();
+            format!("#{i}{name}: {}, used {}", m.model, things(m.uses as u64, "time", "times"))
+        }))
+    }
+
+    /// Pictures and patterns; `None` if there are only plain colours.
+    fn texture_row(&self) -> Option<String> {
+        let textures = &self.inventory.textures;
+        let pixels: usize = textures.iter().filter_map(|t| t.size).map(|[w, h]| w * h).sum();
+        let mut kinds: BTreeMap<&str, usize> = BTreeMap::new();
+        textures.iter().for_each(|t| *kinds.entry(t.kind).or_default() += 1);
+        let kinds: Vec<String> = kinds.iter().map(|(kind, n)| format!("{n} × {kind}")).collect();
+        (!kinds.is_empty()).then(|| format!("{}, {} pixels", kinds.join(", "), count(pixels as f64)))
+    }
+
+    /// What nothing refers to; `None` if everything is used.
+    fn unused_row(&self) -> Option<String> {
+        let Inventory { materials, textures, unused_objects, .. } = &self.inventory;
+        let counts = [
+            (materials.iter().filter(|m| m.uses == 0).count(), "material", "materials"),
+            (textures.iter().filter(|t| t.uses == 0).count(), "texture", "textures"),
+            (*unused_objects, "object", "objects"),
+        ];
+        let said = counts.into_iter().filter(|(n, ..)| *n > 0).map(|(n, one, many)| things(n as u64, one, many));
+        let said: Vec<String> = said.collect();
+        (!said.is_empty()).then(|| said.join(", "))
     }
 }

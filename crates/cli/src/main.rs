@@ -1,6 +1,6 @@
 //! `sunfleck`: the command line of the renderer.
 //!
-//! [`args`] says what can be said; each command has a room of its own ([`render`], [`info`], [`list`], [`diff`],
+//! [`args`] says what can be said; each command has a room of its own ([`render`], [`info`], [`convert`], [`list`], [`diff`],
 //! [`completions`]) that ends in `Ok` or a [`failure::Failure`], which knows its exit code. Results go to standard output,
 //! everything else to standard error.
 #![forbid(unsafe_code)]
@@ -10,6 +10,7 @@ mod bug;
 mod compat;
 mod completions;
 mod console;
+mod convert;
 mod destination;
 mod diff;
 mod failure;
@@ -39,6 +40,7 @@ fn run(command: &Command) -> Result<(), Failure> {
     match command {
         Command::Render(args) => render::run(args),
         Command::Info(args) => info::run(args),
+        Command::Convert(args) => convert::run(args),
         Command::List(args) => list::run(args),
         Command::Diff(args) => diff::run(args),
         Command::Completions(args) => completions::run(args),

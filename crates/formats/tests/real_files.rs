@@ -1,9 +1,12 @@
 //! Files that other people made: each gives a scene or picture, or a clear error. Skipped where they are not at hand.
 
 use formats::image::read_image;
+use formats::pbrt::write::{Written, write};
 use formats::scn::ScnOptions;
 use formats::{Diagnostic, Error, LoadOptions, Loaded, load};
 use std::path::{Path, PathBuf};
+use sunfleck::film::{FilmSpec, Filter, PassImage};
+use sunfleck::integrator::{Params, Pass, find};
 
 /// A folder of the shared files, or `None` (with a note) if there is none.
 fn shared(folder: &str) -> Option<PathBuf> {
@@ -165,4 +168,58 @@ fn the_reference_of_the_cornell_box_has_its_known_mean() {
     }
     // The back wall is bright, the lamp is near the upper edge: rows run downwards.
     assert!(image.data[..500 * 60].iter().any(|p| p[0] > 40.0));
+}
+
+/// What is written as pbrt text is read back as it was: the same counts, and for scenes of moderate size the same picture.
+#[test]
+fn every_scene_can_be_written_as_pbrt_and_read_back() {
+    let Some(folder) = shared("scenes") else { return };
+    let is_scene = |p: &PathBuf| has_extension(p, &["pbrt", "scn"]) && !p.ends_with("geometry.pbrt");
+    let small = |p: &PathBuf| !["fractal", "machines", "luxcore"].iter().any(|big| p.to_string_lossy().contains(big));
+    for path in files_below(&folder).into_iter().filter(is_scene).filter(small) {
+        let first = load_one(&path, false).unwrap_or_else(|e| panic!("{}:\n{e}", path.display()));
+        let place = tempfile::tempdir().unwrap();
+        let to = place.path().join("written.pbrt");
+        let report = write(&to, &Written::from(&first)).unwrap();
+        let second = load_one(&to, false).unwrap_or_else(|e| panic!("{}:\n{e}", path.display()));
+        println!("{}: {report:?}", path.display());
+        assert_eq!((first.surfaces, first.lights), (second.surfaces, second.lights), "{}", path.display());
+        for (i, [x, difference, error]) in compared(&passes(first), &passes(second)).into_iter().enumerate() {
+            let allowed = 5e-3 * x.max(1e-4) + 3.0 * error;
+            assert!(difference.abs() <= allowed, "{}, quarter {i}: {x}, off by {difference}", path.display());
+        }
+    }
+}
+
+/// For each quarter the mean over the passes, by how much the other differs, and the standard error of that.
+fn compared(a: &[[f32; 4]], b: &[[f32; 4]]) -> [[f32; 3]; 4] {
+    let n = a.len() as f32;
+    [0, 1, 2, 3].map(|q| {
+        let differences: Vec<f32> = a.iter().zip(b).map(|(a, b)| b[q] - a[q]).collect();
+        let mean = differences.iter().sum::<f32>() / n;
+        let variance = differences.iter().map(|d| (d - mean).powi(2)).sum::<f32>() / (n - 1.0);
+        [a.iter().map(|a| a[q]).sum::<f32>() / n, mean, (variance / n).sqrt()]
+    })
+}
+
+/// Sums over the quarters of a small picture, pass by pass.
+fn passes(loaded: Loaded) -> Vec<[f32; 4]> {
+    const SIDE: u32 = 24;
+    let mut builder = loaded.builder;
+    builder.camera(loaded.camera.build(loaded.camera.aspect.unwrap_or(1.0)).unwrap());
+    let scene = builder.build().unwrap();
+    let spec = FilmSpec { width: SIDE, height: SIDE, filter: Filter::Box };
+    let integrator = find("path").unwrap().build(Params::default()).unwrap();
+    let prepared = integrator.prepare(&scene, spec, 7);
+    let mut image = PassImage::new(spec);
+    let one = |index| {
+        image.clear();
+        prepared.render_pass(&Pass::new(7, index), &mut image);
+        let mut sums = [0.0; 4];
+        for (i, p) in (0..).zip(image.pixels()) {
+            sums[((i / SIDE * 2 / SIDE) * 2 + i % SIDE * 2 / SIDE) as usize] += p.element_sum();
+        }
+        sums
+    };
+    (0..8).map(one).collect()
 }

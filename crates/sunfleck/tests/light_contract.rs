@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 use sunfleck::{
     bsdf::DiffuseMaterial,
     light::{
-        AreaLight, DirectionalLight, Emitter, EmitterHit, EnvironmentLight, LeSample, LiSample, Light, LightEnd,
-        PointLight, Rim, Sides, SpotLight, Surroundings,
+        AreaLight, DirectionalLight, Emitter, EmitterHit, EnvironmentLight, GoniometricLight, LeSample, LiSample,
+        Light, LightEnd, PointLight, ProjectionLight, Rim, Sides, SpotLight, Surroundings,
     },
     math::{Ray, warp::square_to_sphere},
     sampler::{Domain, Sampler},
@@ -43,11 +43,33 @@ fn lights() -> Vec<(&'static str, Light)> {
         ("spot, sharp", spot([0.5, 0.5])),
         ("spot, all rim", spot([0.0, 1.0])),
         ("spot, wide", spot([1.2, 2.6])),
+        ("goniometric", goniometric()),
+        ("projection", projection(picture())),
+        ("projection, dark in part", projection(halves())),
         ("directional", DirectionalLight::new(Vec3::new(1.0, 2.0, -3.0), Rgb::new(4.0, 3.0, 2.0)).unwrap().into()),
         ("environment, constant", EnvironmentLight::constant(Rgb::new(0.3, 0.6, 0.9)).into()),
         ("environment, picture", EnvironmentLight::panorama(sky(), Rgb::splat(0.7), turn()).unwrap().into()),
         ("environment, two pixels", EnvironmentLight::panorama(halves(), Rgb::ONE, turn()).unwrap().into()),
     ]
+}
+
+fn goniometric() -> Light {
+    let intensity = Rgb::new(2.0, 1.5, 1.0);
+    GoniometricLight::new(Vec3::new(0.1, 0.4, 1.3), intensity, sky(), turn()).unwrap().into()
+}
+
+/// Down at a slant, mirrored.
+fn projection(picture: ImageTexture) -> Light {
+    let forward = Vec3::new(0.3, -0.2, -1.0).normalize();
+    let (right, up) = forward.any_orthonormal_pair();
+    let (p, size) = (Vec3::new(-0.2, 0.1, 1.4), Vec2::new(1.6, 0.9));
+    let axes = Mat3::from_cols(right, up, forward);
+    ProjectionLight::new(p, axes, size, Rgb::new(3.0, 2.0, 2.5), picture).unwrap().into()
+}
+
+fn picture() -> ImageTexture {
+    let pixel = |i: usize| Rgb::new(0.2 + (i % 5) as f32, 0.5, if i == 7 { 20.0 } else { 0.1 });
+    ImageTexture::new(5, 3, (0..15).map(pixel).collect(), Wrap::Repeat).unwrap()
 }
 
 /// A dim gradient, a dark patch and a small sun.
@@ -162,8 +184,10 @@ fn the_list_of_lights_is_complete() {
         Light::Spot(_) => 2,
         Light::Directional(_) => 3,
         Light::Environment(_) => 4,
+        Light::Goniometric(_) => 5,
+        Light::Projection(_) => 6,
     };
-    assert!((0..5).all(|k| lights().iter().any(|(_, l)| kind(l) == k)));
+    assert!((0..7).all(|k| lights().iter().any(|(_, l)| kind(l) == k)));
 }
 
 const FROM: [Vec3; 3] = [Vec3::ZERO, Vec3::new(0.3, -0.8, 0.4), Vec3::new(0.5, 0.3, 1.15)];
@@ -349,4 +373,21 @@ fn the_mean_flux_of_emitted_rays_is_the_power() {
         let error = (total - power).abs().max_element() / power.max_element();
         assert!(error < 0.003, "{name}: {total} W sent, {power} W stated");
     }
+}
+
+#[test]
+fn a_projector_shows_its_picture_upright_and_nothing_beside_it() {
+    // Red, green / blue, white; projected along −z with x to the right and y up.
+    let pixels = vec![Rgb::X, Rgb::Y, Rgb::Z, Rgb::ONE];
+    let picture = ImageTexture::new(2, 2, pixels, Wrap::Clamp).unwrap();
+    let axes = Mat3::from_cols(Vec3::X, Vec3::Y, Vec3::NEG_Z);
+    let light = ProjectionLight::new(2.0 * Vec3::Z, axes, Vec2::new(2.0, 1.0), Rgb::ONE, picture).unwrap();
+    let seen = |x: f32, y: f32| {
+        let li = light.sample_li(Vec3::new(x, y, 0.0), Vec2::ZERO, &AROUND).map(|s| s.li.to_rgb(Wavelengths::Rgb));
+        li.unwrap_or(Rgb::ZERO) * (x * x + y * y + 4.0)
+    };
+    for (x, y, want) in [(-1.0, 0.5, Rgb::X), (1.0, 0.5, Rgb::Y), (-1.0, -0.5, Rgb::Z), (1.0, -0.5, Rgb::ONE)] {
+        assert!((seen(x, y) - want).abs().max_element() < 1e-5, "({x}, {y}): {}", seen(x, y));
+    }
+    assert_eq!((seen(2.1, 0.0), seen(0.0, 1.1)), (Rgb::ZERO, Rgb::ZERO));
 }

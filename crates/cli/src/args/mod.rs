@@ -2,6 +2,7 @@
 mod algorithm;
 mod budget;
 mod camera;
+mod convert;
 mod diff;
 mod output;
 mod picture;
@@ -12,6 +13,7 @@ mod values;
 pub(crate) use algorithm::AlgorithmArgs;
 pub(crate) use budget::BudgetArgs;
 pub(crate) use camera::CameraArgs;
+pub(crate) use convert::ConvertArgs;
 pub(crate) use diff::DiffArgs;
 pub(crate) use output::{JsonStyle, OutputArgs};
 pub(crate) use picture::PictureArgs;
@@ -41,7 +43,9 @@ pub(crate) enum Command {
     /// Render a scene to pictures
     Render(Box<RenderArgs>),
     /// Tell what a scene holds
-    Info(InfoArgs),
+    Info(Box<InfoArgs>),
+    /// Write a scene of any format as pbrt text, with meshes and pictures beside it
+    Convert(Box<ConvertArgs>),
     /// List integrators, materials or file formats
     List(ListArgs),
     /// Compare a picture with a reference

@@ -54,7 +54,11 @@ impl Eye {
         // NRenderer's default of 0.1 puts the plane in focus in front of nearly everything.
         let default_focus = if compat.is_some() { file.focus_distance } else { position.distance(look_at) };
         Self {
-            projection: if said.fov.is_some() { Projection::Perspective } else { file.projection },
+            projection: said.projection.unwrap_or(if said.fov.is_some() {
+                Projection::Perspective
+            } else {
+                file.projection
+            }),
             position: position.to_array(),
             look_at: look_at.to_array(),
             up: said.up.unwrap_or(file.view.up).to_array(),
@@ -67,10 +71,10 @@ impl Eye {
         }
     }
 
-    /// The camera itself.
-    pub(super) fn open(&self) -> Result<Camera, Failure> {
+    /// As the formats know it.
+    pub(crate) fn settings(&self) -> CameraSettings {
         let [position, look_at, up] = [self.position, self.look_at, self.up].map(Vec3::from_array);
-        let settings = CameraSettings {
+        CameraSettings {
             projection: self.projection,
             view: View { position, look_at, up },
             fov: self.fov,
@@ -79,8 +83,12 @@ impl Eye {
             aspect: Some(self.aspect),
             is_mirrored: self.mirrored,
             shift: self.shift,
-        };
-        settings.build(self.aspect).map_err(|e| Failure::BadInput(e.into()))
+        }
+    }
+
+    /// The camera itself.
+    pub(super) fn open(&self) -> Result<Camera, Failure> {
+        self.settings().build(self.aspect).map_err(|e| Failure::BadInput(e.into()))
     }
 
     /// One line for people.

@@ -1,8 +1,12 @@
 //! From scene files and the flags that change them to a scene that can be rendered.
+mod change;
 mod eye;
+mod inventory;
 mod record;
 
+pub(crate) use change::{projection, replacement};
 pub(crate) use eye::Eye;
+pub(crate) use inventory::Inventory;
 pub(crate) use record::{SceneRecord, Warning};
 
 use crate::{
@@ -12,13 +16,13 @@ use crate::{
 };
 use formats::diagnostic::Diagnostic;
 use formats::image::read_image;
-use formats::load::{Hints, LoadOptions, RenderDefaults};
+use formats::load::{Hints, LoadOptions, RenderDefaults, is_missing};
 use formats::scn::ScnOptions;
 use glam::{Mat3, Vec3};
 use std::path::Path;
 use sunfleck::{
     light::{EnvironmentLight, Sides},
-    scene::Scene,
+    scene::{MaterialId, Scene, SceneBuilder},
     texture::{ImageTexture, Wrap},
 };
 
@@ -32,38 +36,80 @@ pub(crate) struct Loaded {
     pub(crate) hints: Hints,
     /// Names the content of all files.
     pub(crate) hash: String,
+    /// What it is made of.
+    pub(crate) inventory: Inventory,
     warnings: Vec<Diagnostic>,
 }
 
-/// Reads the files into one scene, adds the surroundings, and opens the eye.
+/// The same before it is built.
+pub(crate) struct Opened {
+    pub(crate) builder: SceneBuilder,
+    pub(crate) eye: Eye,
+    /// Where the eye goes while the shutter is open, if it moves.
+    pub(crate) eye_to: Option<Eye>,
+    pub(crate) defaults: RenderDefaults,
+    pub(crate) hints: Hints,
+    pub(crate) hash: String,
+    /// What files call the materials.
+    pub(crate) names: Vec<(String, MaterialId)>,
+    warnings: Vec<Diagnostic>,
+}
+
+/// Reads the files into one scene, adds the surroundings and what else was asked for, and opens the eye.
 ///
 /// With `stage`, a mesh alone gets a floor, a sky and an eye, unless the flags light it.
+pub(crate) fn open(
+    args: &SceneArgs,
+    camera: &CameraArgs,
+    compat: Option<Compat>,
+    stage: bool,
+) -> Result<Opened, Failure> {
+    let scn = ScnOptions {
+        compat: compat == Some(Compat::Nrenderer),
+        area_light_sides: args.area_lights.map(Sides::from),
+        comma: None,
+    };
+    let stage = stage && compat.is_none() && args.env.is_none() && args.ambient.is_none() && args.lights.is_empty();
+    let options = LoadOptions { scn, allow_outside: args.allow_outside, strict: args.strict, stage };
+    let mut read = formats::load(&args.files, &options)?;
+    let surroundings = surroundings(args)?;
+    let lit = surroundings.is_some() || !args.lights.is_empty();
+    if let Some(light) = surroundings {
+        read.builder.light(light);
+    }
+    change::apply(&mut read, &args.materials, &args.lights)?;
+    let eye = Eye::new(camera, &read.camera, compat);
+    let eye_to = read.camera_to.filter(|_| !camera.is_placed()).map(|to| Eye::new(camera, &to, compat));
+    // The files know nothing of the flags that light the scene.
+    let outdated = |w: &Diagnostic| lit && w.code == "load::no-light";
+    Ok(Opened {
+        builder: read.builder,
+        eye,
+        eye_to,
+        defaults: read.defaults,
+        hints: read.hints,
+        hash: read.hash,
+        names: read.materials,
+        warnings: read.warnings.into_iter().filter(|w| !outdated(w)).collect(),
+    })
+}
+
+/// [`open`], ready to be rendered.
 pub(crate) fn scene(
     args: &SceneArgs,
     camera: &CameraArgs,
     compat: Option<Compat>,
     stage: bool,
 ) -> Result<Loaded, Failure> {
-    let scn = ScnOptions {
-        compat: compat == Some(Compat::Nrenderer),
-        area_light_sides: args.area_lights.map(Sides::from),
-        comma: None,
-    };
-    let stage = stage && compat.is_none() && args.env.is_none() && args.ambient.is_none();
-    let read = formats::load(&args.files, &LoadOptions { scn, allow_outside: args.allow_outside, stage })?;
-    let mut builder = read.builder;
-    let surroundings = surroundings(args)?;
-    let lit = surroundings.is_some();
-    if let Some(light) = surroundings {
-        builder.light(light);
+    let Opened { mut builder, eye, eye_to, defaults, hints, hash, names, warnings } =
+        open(args, camera, compat, stage)?;
+    match eye_to {
+        Some(to) => builder.camera_moving(eye.open()?, to.open()?),
+        None => builder.camera(eye.open()?),
     }
-    let eye = Eye::new(camera, &read.camera, compat);
-    builder.camera(eye.open()?);
+    let inventory = Inventory::new(&builder.parts(), &names);
     let scene = builder.build().map_err(|e| Failure::BadInput(e.into()))?;
-    // The files know nothing of the flags that light the scene.
-    let outdated = |w: &Diagnostic| lit && w.code == "load::no-light";
-    let warnings = read.warnings.into_iter().filter(|w| !outdated(w)).collect();
-    Ok(Loaded { scene, eye, defaults: read.defaults, hints: read.hints, hash: read.hash, warnings })
+    Ok(Loaded { scene, eye, defaults, hints, hash, inventory, warnings })
 }
 
 fn surroundings(args: &SceneArgs) -> Result<Option<EnvironmentLight>, Failure> {
@@ -88,9 +134,24 @@ impl Loaded {
     pub(crate) fn warnings(&self) -> impl Iterator<Item = Warning> + '_ {
         self.warnings.iter().map(Warning::from)
     }
+    /// What is missing: textures, meshes and other files for which something else stands.
+    pub(crate) fn missing(&self) -> impl Iterator<Item = &str> {
+        self.warnings.iter().filter(|w| is_missing(w.code)).map(|w| w.message.as_str())
+    }
     /// Tells a person what was odd.
     pub(crate) fn say_warnings(&self) {
-        let colour = console::has_colour();
-        self.warnings.iter().for_each(|w| console::say(format_args!("{}\n", w.render(colour))));
+        say(&self.warnings);
     }
+}
+
+impl Opened {
+    /// Tells a person what was odd.
+    pub(crate) fn say_warnings(&self) {
+        say(&self.warnings);
+    }
+}
+
+fn say(warnings: &[Diagnostic]) {
+    let colour = console::has_colour();
+    warnings.iter().for_each(|w| console::say(format_args!("{}\n", w.render(colour))));
 }

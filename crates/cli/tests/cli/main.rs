@@ -1,4 +1,5 @@
 //! Runs the built program as a user would.
+mod convert;
 mod diff;
 mod errors;
 mod explain;

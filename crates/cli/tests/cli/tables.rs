@@ -1,5 +1,8 @@
 use crate::workplace::Workplace;
-use sunfleck::{bsdf::MATERIALS, integrator::REGISTRY};
+use sunfleck::{
+    bsdf::{COVERINGS, MATERIALS},
+    integrator::REGISTRY,
+};
 
 #[test]
 fn lists_hold_the_whole_registries() {
@@ -9,7 +12,7 @@ fn lists_hold_the_whole_registries() {
         records.as_array().unwrap().iter().map(|r| r["name"].as_str().unwrap().to_owned()).collect()
     };
     assert_eq!(names("integrators"), REGISTRY.iter().map(|e| e.name).collect::<Vec<_>>());
-    assert_eq!(names("materials"), MATERIALS.iter().map(|m| m.name).collect::<Vec<_>>());
+    assert_eq!(names("materials"), MATERIALS.iter().chain(COVERINGS).map(|m| m.name).collect::<Vec<_>>());
     let known = formats::SCENE_FORMATS.iter().map(|f| f.name).chain(formats::image::FORMATS.iter().map(|f| f.name));
     assert_eq!(names("formats"), known.collect::<Vec<_>>());
     for what in ["integrators", "materials", "formats"] {

@@ -13,13 +13,13 @@ mod tests;
 pub use camera::{CameraSettings, Hints, Projection, RenderDefaults};
 pub use target::Target;
 
-use crate::diagnostic::{Diagnostic, Error};
+use crate::diagnostic::{Diagnostic, Error, Severity};
 use crate::image::Tone;
 use crate::scn::ScnOptions;
 use hash::InputHash;
 use std::path::{Path, PathBuf};
 use sunfleck::film::Filter;
-use sunfleck::scene::SceneBuilder;
+use sunfleck::scene::{MaterialId, SceneBuilder};
 
 /// How scene files are read.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -28,6 +28,8 @@ pub struct LoadOptions {
     pub scn: ScnOptions,
     /// Whether a file may include others from outside of its folder.
     pub allow_outside: bool,
+    /// Whether files that are missing are errors, not warnings.
+    pub strict: bool,
     /// Whether a mesh that comes alone gets a floor, light and an eye.
     pub stage: bool,
 }
@@ -41,6 +43,10 @@ pub struct Loaded {
     pub builder: SceneBuilder,
     /// The camera of the files, or the default of their format.
     pub camera: CameraSettings,
+    /// Where the camera goes while the shutter is open, if it moves.
+    pub camera_to: Option<CameraSettings>,
+    /// What the files call their materials; a name may stand for several.
+    pub materials: Vec<(String, MaterialId)>,
     /// Picture size and the like.
     pub defaults: RenderDefaults,
     /// What was odd.
@@ -96,6 +102,14 @@ pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
     if paths.is_empty() {
         failed = Some(Diagnostic::error("load::nothing", "no scene file is given").into());
     }
+    if options.strict {
+        let (missing, other) = target.warnings.into_iter().partition::<Vec<_>, _>(|w| is_missing(w.code));
+        target.warnings = other;
+        if !missing.is_empty() {
+            let all = failed.get_or_insert(Error { errors: Vec::new(), warnings: Vec::new() });
+            all.errors.extend(missing.into_iter().map(|w| Diagnostic { severity: Severity::Error, ..w }));
+        }
+    }
     if let Some(error) = failed {
         return Err(Error { warnings: target.warnings, ..error });
     }
@@ -110,6 +124,8 @@ pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
     Ok(Loaded {
         builder: target.builder,
         camera: target.camera.unwrap_or_default(),
+        camera_to: target.camera_to,
+        materials: target.names,
         defaults: RenderDefaults {
             filter: if compat { Filter::NRenderer } else { Filter::Box },
             tone: if compat { Tone::SquareRoot } else { Tone::Srgb },
@@ -122,6 +138,12 @@ pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
         surfaces: target.surfaces,
         lights: target.lights,
     })
+}
+
+/// Whether a warning is about a file that is missing or cannot be read, and for which something else stands.
+pub fn is_missing(code: &str) -> bool {
+    const WHAT: [&str; 5] = ["missing-picture", "missing-texture", "missing-mesh", "missing-library", "missing-file"];
+    code == "mtl::texture" || code.split("::").nth(1).is_some_and(|what| WHAT.contains(&what))
 }
 
 fn format_of(path: &Path) -> Result<&'static SceneFormat, Error> {

@@ -14,6 +14,10 @@ pub struct Target {
     pub sink: Sink,
     /// The eye, if a file has one.
     pub(crate) camera: Option<CameraSettings>,
+    /// Where the eye goes while the shutter is open, if it moves.
+    pub(crate) camera_to: Option<CameraSettings>,
+    /// Names that files give to materials, in order.
+    pub(super) names: Vec<(String, MaterialId)>,
     /// What a file says about how to render it.
     pub(crate) hints: Option<Hints>,
     bounds: Option<(Vec3, Vec3)>,
@@ -29,6 +33,8 @@ impl Target {
         Self {
             sink: Sink::default(),
             camera: None,
+            camera_to: None,
+            names: Vec::new(),
             hints: None,
             bounds: None,
             builder: SceneBuilder::new(),
@@ -47,6 +53,11 @@ impl Target {
     /// For materials and textures.
     pub(crate) fn builder(&mut self) -> &mut SceneBuilder {
         &mut self.builder
+    }
+
+    /// Notes what a file calls a material, so that it can be asked for by name.
+    pub(crate) fn name_material(&mut self, name: &str, id: MaterialId) {
+        self.names.push((name.to_owned(), id));
     }
 
     /// Notes the bytes of an input file.

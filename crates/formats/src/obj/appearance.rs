@@ -53,7 +53,11 @@ impl<'t> Appearances<'t> {
         let made = if let (Some(mtl), Some((_, span))) = (definition, named) {
             let model = self.model(mtl, (source, *span), target);
             let emission = mtl.emission.map(|e| Vec3::from_array(e).max(Vec3::ZERO));
-            (target.builder().material(model), emission)
+            let id = target.builder().material(model);
+            if let Some((name, _)) = named {
+                target.name_material(name, id);
+            }
+            (id, emission)
         } else {
             let reflectance = target.builder().constant(DEFAULT_GREY);
             (target.builder().material(DiffuseMaterial { reflectance }), None)

@@ -52,7 +52,7 @@ impl Importer<'_> {
         self.warn_once("pbrt::camera", "", || params.at.tell(warning("pbrt::camera", message), ""));
         let Some(param) = params.get("lensfile").cloned() else { return Ok(Barrel::default()) };
         let [name] = param.strings().unwrap_or_default() else { return Err(param.expected("one file name")) };
-        let path = self.files.find(name, &param.at);
+        let path = self.files.find(name, param.at.source.name());
         let text = self.files.read(&path).ok().map(|bytes| String::from_utf8_lossy(&bytes).into_owned());
         let barrel = text.as_deref().and_then(Barrel::read);
         if barrel.is_none() {

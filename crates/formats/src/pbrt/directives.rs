@@ -1,6 +1,7 @@
 //! What each directive does.
 
 use super::lexer::Kind;
+use super::meshes::MeshCache;
 use super::params::{Found, Params};
 use super::picture::Picture;
 use super::spectra::Role;
@@ -15,7 +16,8 @@ use crate::load::Target;
 use glam::DAffine3;
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
-use sunfleck::scene::{ObjectId, SurfaceDef};
+use sunfleck::bsdf::Scalar;
+use sunfleck::scene::{MaterialId, ObjectId, SurfaceDef};
 use sunfleck::spectrum::Colour;
 
 /// Blocks may be nested this deep.
@@ -40,6 +42,11 @@ pub(super) struct Importer<'t> {
     blocks: Vec<Block>,
     pub(super) coordinates: HashMap<String, [DAffine3; 2]>,
     pub(super) named_materials: HashMap<String, Cover>,
+    /// Materials named before they were made: what stands for them, and where they were named first.
+    pub(super) awaited: HashMap<String, (MaterialId, At)>,
+    /// Materials with holes, by what is pierced and how.
+    pub(super) masks: Vec<(MaterialId, Scalar, MaterialId)>,
+    pub(super) meshes: MeshCache,
     pub(super) textures: Textures,
     pub(super) objects: HashMap<String, Option<ObjectId>>,
     /// The object that is being defined.
@@ -61,6 +68,9 @@ impl<'t> Importer<'t> {
             blocks: Vec::new(),
             coordinates: HashMap::new(),
             named_materials: HashMap::new(),
+            awaited: HashMap::new(),
+            masks: Vec::new(),
+            meshes: MeshCache::default(),
             textures: Textures::default(),
             objects: HashMap::new(),
             object: None,
@@ -91,6 +101,7 @@ impl<'t> Importer<'t> {
             let warning = Diagnostic::warning("pbrt::open-block", message);
             self.target.sink.warn("pbrt::open-block", || block.at.tell(warning, "begins here"));
         }
+        self.tell_awaited();
         if self.target.sink.is_ok()
             && let Err(error) = self.finish_picture()
         {
@@ -159,7 +170,10 @@ impl<'t> Importer<'t> {
         let name = self.string(&at)?;
         match word {
             "MediumInterface" => return self.medium_interface(&at),
-            "NamedMaterial" => return self.named_material(&name, &at),
+            "NamedMaterial" => {
+                self.named_material(&name, &at);
+                return Ok(());
+            }
             "ColorSpace" => {
                 if name != "srgb" {
                     let message = format!("colours of the space `{name}` are taken as sRGB's");
@@ -176,7 +190,7 @@ impl<'t> Importer<'t> {
             "Camera" => {
                 let world_from_camera = self.state.ctm.map(|m| m.inverse());
                 self.coordinates.insert("camera".to_owned(), world_from_camera);
-                self.picture.camera = Some((name, params, self.state.world_from_object()));
+                self.picture.camera = Some((name, params, self.state.ctm));
             }
             "Film" => self.film(&name, &params)?,
             "Sampler" => self.picture.sampler = Some(params),
@@ -203,6 +217,11 @@ impl<'t> Importer<'t> {
         }
         let error = at.tell(Diagnostic::error("pbrt::no-name", "this directive needs a name"), "");
         Err(Box::new(error.expected("a string in quotes")))
+    }
+
+    /// All covers that may still be asked for: now, and when a block ends.
+    pub(super) fn blocks_and_state(&mut self) -> impl Iterator<Item = &mut Option<Cover>> {
+        self.blocks.iter_mut().map(|b| &mut b.saved.cover).chain([&mut self.state.cover])
     }
 
     pub(super) fn begin(&mut self, begin: &'static str, at: At) -> Found<()> {

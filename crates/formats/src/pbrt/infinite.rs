@@ -2,7 +2,8 @@
 
 use crate::image::RgbImage32;
 use glam::{Mat3, Vec2, Vec3};
-use std::f32::consts::{FRAC_PI_2, PI, TAU};
+use std::f32::consts::{PI, TAU};
+use sunfleck::math::warp::sphere_to_equal_area_square;
 use sunfleck::texture::{ImageTexture, Wrap};
 
 /// A longitude-latitude map, and what takes its axes to those of the light, where z is up.
@@ -29,7 +30,7 @@ pub(super) fn panorama(image: RgbImage32, is_version_4: bool) -> Result<(ImageTe
         for x in 0..columns {
             let (sin_phi, cos_phi) = (TAU * (x as f32 + 0.5) / columns as f32).sin_cos();
             let d = Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta);
-            let place = square_from_sphere(d);
+            let place = sphere_to_equal_area_square(d);
             pixels.push(octahedral(&texture, place));
         }
     }
@@ -43,20 +44,6 @@ fn octahedral(texture: &ImageTexture, place: Vec2) -> Vec3 {
     // Beyond the edge comes another part of it; the nearest pixel is never wrong by more than half its size.
     let inner = place.clamp(Vec2::splat(half), Vec2::splat(1.0 - half));
     texture.eval(Vec2::new(inner.x, 1.0 - inner.y))
-}
-
-/// The equal-area map of the sphere to the unit square (Clarberg 2008, "Fast Equal-Area Mapping of the (Hemi)Sphere using
-/// SIMD"): the upper hemisphere is the diamond in the middle.
-fn square_from_sphere(d: Vec3) -> Vec2 {
-    let a = d.abs();
-    let r = (1.0 - a.z).max(0.0).sqrt();
-    let phi = if a.x == 0.0 && a.y == 0.0 { 0.0 } else { a.y.atan2(a.x) / FRAC_PI_2 };
-    let (mut u, mut v) = (r - phi * r, phi * r);
-    if d.z < 0.0 {
-        (u, v) = (1.0 - v, 1.0 - u);
-    }
-    let place = Vec2::new(u.copysign(d.x), v.copysign(d.y));
-    0.5 * (place + 1.0)
 }
 
 /// Illuminance of a horizontal plane under the picture of a square layout, or of any: mean luminance of the upper half
@@ -73,9 +60,9 @@ mod tests {
 
     #[test]
     fn the_square_map_keeps_areas_and_puts_the_pole_in_the_middle() {
-        assert_eq!(square_from_sphere(Vec3::Z), Vec2::splat(0.5));
-        assert!((square_from_sphere(Vec3::X) - Vec2::new(1.0, 0.5)).length() < 1e-6);
-        assert!((square_from_sphere(Vec3::Y) - Vec2::new(0.5, 1.0)).length() < 1e-6);
+        assert_eq!(sphere_to_equal_area_square(Vec3::Z), Vec2::splat(0.5));
+        assert!((sphere_to_equal_area_square(Vec3::X) - Vec2::new(1.0, 0.5)).length() < 1e-6);
+        assert!((sphere_to_equal_area_square(Vec3::Y) - Vec2::new(0.5, 1.0)).length() < 1e-6);
         // Of directions spread evenly over the sphere, each quarter of the square gets as many.
         let mut counts = [0_u32; 16];
         let n = 100_000_u32;
@@ -83,7 +70,7 @@ mod tests {
             let z = 1.0 - 2.0 * (i as f32 + 0.5) / n as f32;
             let (sin, cos) = (i as f32 * PI * (3.0 - 5.0_f32.sqrt())).sin_cos();
             let r = (1.0 - z * z).sqrt();
-            let p = square_from_sphere(Vec3::new(r * cos, r * sin, z));
+            let p = sphere_to_equal_area_square(Vec3::new(r * cos, r * sin, z));
             counts[(p.x * 4.0).min(3.0) as usize + 4 * (p.y * 4.0).min(3.0) as usize] += 1;
         }
         for count in counts {

@@ -36,13 +36,18 @@ pub(super) fn next(source: &SourceFile, at: usize) -> Result<Option<(Kind, Span)
     }
 }
 
+/// What follows this in a line is no comment: what our own writer has to say that pbrt has no words for.
+pub(super) const OURS: &[u8] = b"#sunfleck ";
+
 /// The first byte from `at` that is no blank and in no comment. A byte order mark is a blank.
 fn skip(bytes: &[u8], mut at: usize) -> Option<usize> {
     if at == 0 && bytes.starts_with(&[0xEF, 0xBB, 0xBF]) {
         at = 3;
     }
     while let Some(byte) = bytes.get(at) {
-        if *byte == b'#' {
+        if bytes[at..].starts_with(OURS) {
+            at += OURS.len();
+        } else if *byte == b'#' {
             at += bytes[at..].iter().position(|b| matches!(b, b'\n' | b'\r')).unwrap_or(bytes.len() - at);
         } else if byte.is_ascii_whitespace() {
             at += 1;

@@ -22,11 +22,7 @@ impl Importer<'_> {
             "infinite" | "exinfinite" => self.infinite(&params)?,
             "point" => self.point(&params)?,
             "spot" => self.spot(&params)?,
-            "goniometric" => {
-                params.ignore(&["filename", "mapname"]);
-                self.near_light(name, &params, "shining evenly in all directions");
-                self.point(&params)?;
-            }
+            "goniometric" => self.goniometric(&params)?,
             "projection" => self.projection(&params)?,
             _ => return Err(unknown(&params.at, "light", name, LIGHTS)),
         }
@@ -34,15 +30,8 @@ impl Importer<'_> {
         Ok(())
     }
 
-    fn near_light(&mut self, name: &str, params: &Params, what: &str) {
-        let message = format!("lights of the kind `{name}` are shown {what}");
-        self.warn_once("pbrt::substitute-light", name, || {
-            params.at.tell(warning("pbrt::substitute-light", message), "")
-        });
-    }
-
     /// A colour of light times `scale` and exposure.
-    fn emitted(&mut self, params: &Params, name: &'static str) -> Found<Illuminant> {
+    pub(super) fn emitted(&mut self, params: &Params, name: &'static str) -> Found<Illuminant> {
         let light = match params.get(name).cloned() {
             Some(param) => self.illuminant(&param)?,
             None => Vec3::ONE.into(),
@@ -54,6 +43,7 @@ impl Importer<'_> {
         };
         let is_grey = scale == Vec3::splat(scale.x);
         let light = if is_grey { light * scale.x } else { (light.rgb() * scale).into() } * self.picture.exposure();
+        let light = self.picture.film.balanced(light.rgb()).map_or(light, Illuminant::from);
         let colour = light.rgb();
         if colour.is_finite() && colour.min_element() >= 0.0 {
             return Ok(light);
@@ -69,18 +59,18 @@ impl Importer<'_> {
     }
 
     /// What to multiply a light by for the flux that `power` asks for, when it gives `flux` lumens over its luminance.
-    fn power(&self, params: &Params, light: &Illuminant, flux: f32) -> Found<f32> {
+    pub(super) fn power(&self, params: &Params, light: &Illuminant, flux: f32) -> Found<f32> {
         let Some(power) = params.maybe_number("power")? else { return Ok(1.0) };
         let given = luminance(light) / self.picture.exposure() * flux;
         Ok(if power > 0.0 && given > 0.0 { power as f32 / given } else { 1.0 })
     }
 
-    fn place(&self, params: &Params, name: &'static str, default: DVec3) -> Found<Vec3> {
+    pub(super) fn place(&self, params: &Params, name: &'static str, default: DVec3) -> Found<Vec3> {
         let p = params.vec3(name)?.unwrap_or(default);
         Ok(self.state.world_from_object().transform_point3(p).as_vec3())
     }
 
-    fn point(&mut self, params: &Params) -> Found<()> {
+    pub(super) fn point(&mut self, params: &Params) -> Found<()> {
         let intensity = self.emitted(params, "I")?;
         let power = self.power(params, &intensity, 4.0 * PI)?;
         let p = self.place(params, "from", DVec3::ZERO)?;
@@ -119,25 +109,18 @@ impl Importer<'_> {
         let power = self.power(params, &intensity, solid_angle)?;
         let spot = SpotLight::new(p, direction, intensity * power, [hot as f32, out as f32]);
         let spot = spot.map_err(|e| params.bad("pbrt::value", &e.to_string()))?;
-        let rim = if self.picture.is_version_3 { Rim::Fourth } else { Rim::Smooth };
+        // Our own writer says so where it is not that of the version.
+        let is_fourth = params.word("rim", "", &["fourth", "smooth"])? == "fourth";
+        let rim = if self.picture.is_version_3 || is_fourth { Rim::Fourth } else { Rim::Smooth };
         self.target.light(spot.with_rim(rim));
         Ok(())
     }
 
-    fn projection(&mut self, params: &Params) -> Found<()> {
-        params.ignore(&["filename", "mapname"]);
-        self.near_light("projection", params, "as a cone without a picture");
-        let fov = params.number("fov", 90.0)?.clamp(1.0, 179.0).to_radians();
-        let world = self.state.world_from_object();
-        let axis = world.transform_vector3(DVec3::Z).as_vec3();
-        self.cone(params, world.translation.as_vec3(), axis, [0.49 * fov, 0.5 * fov])
-    }
-
     fn infinite(&mut self, params: &Params) -> Found<()> {
-        params.ignore(&["portal", "nsamples", "samples"]);
+        params.ignore(&["portal", "nsamples", "samples", "filename"]);
         let mut radiance = self.emitted(params, "L")?;
         let lux = params.maybe_number("illuminance")?.filter(|lux| *lux > 0.0);
-        let name = ["filename", "mapname"].into_iter().find(|n| params.get(n).is_some());
+        let name = ["latlong", "filename", "mapname"].into_iter().find(|n| params.get(n).is_some());
         let picture = match name {
             Some(name) => self.picture_file(params, name)?,
             None => None,
@@ -199,12 +182,12 @@ impl Importer<'_> {
 }
 
 /// Luminance of linear sRGB.
-fn luminance(light: &Illuminant) -> f32 {
+pub(super) fn luminance(light: &Illuminant) -> f32 {
     light.rgb().dot(Vec3::new(0.212_639, 0.715_169, 0.072_192))
 }
 
 /// The turn and mirroring in a matrix, without its scaling.
-fn rotation(m: &DMat3) -> Mat3 {
+pub(super) fn rotation(m: &DMat3) -> Mat3 {
     let x = m.x_axis.normalize_or(DVec3::X);
     let y = (m.y_axis - x * x.dot(m.y_axis)).normalize_or(DVec3::Y);
     let z = x.cross(y) * if m.determinant() < 0.0 { -1.0 } else { 1.0 };

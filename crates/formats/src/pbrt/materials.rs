@@ -1,14 +1,14 @@
 //! `Material`: what pbrt's models are among ours. What is only near is told of, once for each model.
 
 use super::directives::{Importer, unknown, warning};
+use super::ours::PREFIX;
 use super::params::{Found, Params};
 use super::spectra::Role;
 use super::state::Cover;
-use crate::lines::shortened;
 use glam::Vec3;
 use sunfleck::bsdf::{
     ConductorMaterial, CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, Material, MirrorMaterial,
-    RoughConductorMaterial, RoughDielectricMaterial, TextureId,
+    RoughConductorMaterial, RoughDielectricMaterial, TextureId, ThinDielectricMaterial,
 };
 use sunfleck::scene::MaterialId;
 use sunfleck::spectrum::{Ior, named};
@@ -51,23 +51,6 @@ impl Importer<'_> {
         Ok(made)
     }
 
-    pub(super) fn make_named_material(&mut self, name: &str, params: Params) -> Found<()> {
-        let Some(model) = params.string("type")?.map(str::to_owned) else {
-            return Err(params.bad("pbrt::no-type", "a named material needs a `type`"));
-        };
-        let made = self.material(&model, params)?;
-        self.named_materials.insert(name.to_owned(), made);
-        Ok(())
-    }
-
-    pub(super) fn named_material(&mut self, name: &str, at: &super::tokens::At) -> Found<()> {
-        let Some(cover) = self.named_materials.get(name) else {
-            return Err(unknown(at, "material", name, self.named_materials.keys().map(String::as_str)));
-        };
-        self.state.cover = Some(*cover);
-        Ok(())
-    }
-
     /// pbrt's: a matt grey of 0.5.
     pub(super) fn default_material(&mut self) -> MaterialId {
         let reflectance = self.target.builder().constant(Vec3::splat(0.5));
@@ -77,31 +60,40 @@ impl Importer<'_> {
     }
 
     fn cover(&mut self, name: &str, params: &Params) -> Found<Cover> {
-        for map in ["displacement", "bumpmap", "normalmap"] {
-            if let Some(param) = params.get(map) {
-                let at = param.at.clone();
-                self.warn_once("pbrt::bump", map, || {
-                    at.tell(warning("pbrt::bump", format!("`{map}` is left out: surfaces stay smooth")), "")
-                });
-            }
-        }
         if matches!(name, "interface" | "none" | "") {
             return Ok(Cover::Nothing);
         }
         if name == "mix" {
             return self.mix(params);
         }
+        if let Some(ours) = name.strip_prefix(PREFIX) {
+            return self.our_model(ours, params);
+        }
         let model: Material = match name {
             "diffuse" | "matte" => self.diffuse(params)?.into(),
             "dielectric" | "glass" => self.dielectric(params)?,
+            "thindielectric" => {
+                let glass = self.glass(params)?;
+                let DielectricMaterial { eta, reflectance, transmittance } = glass;
+                ThinDielectricMaterial { eta, reflectance, transmittance }.into()
+            }
             "conductor" | "metal" => self.conductor(name == "metal", params)?,
-            "mirror" => MirrorMaterial { reflect: self.spectrum(params, &["Kr"], Vec3::splat(0.9))? }.into(),
+            "mirror" => {
+                // What stands there for version 4, which has no such model.
+                params.ignore(&["reflectance"]);
+                MirrorMaterial { reflect: self.spectrum(params, &["Kr"], Vec3::splat(0.9))? }.into()
+            }
+            "plastic" if !self.has_gloss(params)? => self.matt_base(params, 0.25)?,
             "coateddiffuse" | "plastic" | "substrate" | "disney" => self.coated(name, params)?.into(),
             "uber" => self.uber(params)?,
             _ if MATERIALS.contains(&name) => self.substitute(name, params)?,
             _ => return Err(unknown(&params.at, "material", name, MATERIALS)),
         };
-        Ok(Cover::Material(self.target.builder().material(model)))
+        let mut id = self.with_relief(model, params)?;
+        if name == "uber" {
+            id = self.uber_opacity(id, params)?;
+        }
+        Ok(Cover::Material(id))
     }
 
     fn near(&mut self, name: &str, params: &Params, what: &str) {
@@ -118,28 +110,6 @@ impl Importer<'_> {
         Ok(DiffuseMaterial { reflectance: self.spectrum(params, &["reflectance", "Kd"], Vec3::splat(0.5))? })
     }
 
-    /// GGX alpha from pbrt's roughness; `default` is the roughness when none is given.
-    fn alpha(&mut self, params: &Params, prefix: [&'static str; 3], default: f64) -> Found<f32> {
-        let both = self.float(params, prefix[0], default)?;
-        let (u, v) = (self.float(params, prefix[1], both)?, self.float(params, prefix[2], both)?);
-        let remap = params.bool("remaproughness", true)?;
-        let is_version_3 = self.picture.is_version_3;
-        let alpha = |r: f64| match (remap, is_version_3) {
-            (false, _) => r,
-            (true, false) => r.max(0.0).sqrt(),
-            (true, true) => {
-                // The fit of version 3 (Pharr, Jakob & Humphreys 2016, `RoughnessToAlpha`); 0 is smooth.
-                let x = r.max(1e-3).ln();
-                1.62142 + x * (0.819_955 + x * (0.1734 + x * (0.017_120_1 + x * 0.000_640_711)))
-            }
-        };
-        let is_smooth = u <= 0.0 && v <= 0.0;
-        if u != v {
-            self.near("anisotropic roughness", params, "the same roughness in all directions");
-        }
-        Ok(if is_smooth { 0.0 } else { (alpha(u.max(1e-6)) * alpha(v.max(1e-6))).max(0.0).sqrt().min(1.0) as f32 })
-    }
-
     /// The index of refraction under its names in both versions.
     fn eta(&mut self, params: &Params, default: f32) -> Found<Ior> {
         for name in ["eta", "index"] {
@@ -154,25 +124,29 @@ impl Importer<'_> {
         Ok(Ior::Constant(default))
     }
 
-    fn dielectric(&mut self, params: &Params) -> Found<Material> {
+    fn glass(&mut self, params: &Params) -> Found<DielectricMaterial> {
         let eta = self.eta(params, 1.5)?;
         if eta.d() <= 0.0 {
             return Err(params.bad("pbrt::value", "an index of refraction must be greater than 0"));
         }
-        let glass = DielectricMaterial {
+        Ok(DielectricMaterial {
             eta,
             reflectance: self.spectrum(params, &["Kr"], Vec3::ONE)?,
             transmittance: self.spectrum(params, &["Kt"], Vec3::ONE)?,
-        };
-        let alpha = self.alpha(params, ["roughness", "uroughness", "vroughness"], 0.0)?;
-        Ok(if alpha > 0.0 { RoughDielectricMaterial { glass, alpha: alpha.into() }.into() } else { glass.into() })
+        })
+    }
+
+    fn dielectric(&mut self, params: &Params) -> Found<Material> {
+        let glass = self.glass(params)?;
+        let alpha = self.roughness(params, ["roughness", "uroughness", "vroughness"], 0.0)?;
+        Ok(alpha.map_or_else(|| glass.into(), |alpha| RoughDielectricMaterial { glass, alpha }.into()))
     }
 
     fn conductor(&mut self, is_version_3: bool, params: &Params) -> Found<Material> {
-        let alpha =
-            self.alpha(params, ["roughness", "uroughness", "vroughness"], if is_version_3 { 0.01 } else { 0.0 })?;
+        let default = if is_version_3 { 0.01 } else { 0.0 };
+        let alpha = self.roughness(params, ["roughness", "uroughness", "vroughness"], default)?;
         let metal = self.metal(params, ["eta", "k", "reflectance"])?;
-        Ok(if alpha > 0.0 { RoughConductorMaterial { metal, alpha: alpha.into() }.into() } else { metal.into() })
+        Ok(alpha.map_or_else(|| metal.into(), |alpha| RoughConductorMaterial { metal, alpha }.into()))
     }
 
     /// A metal by its indices or by its reflectance along the normal.
@@ -188,7 +162,7 @@ impl Importer<'_> {
         }
         let eta = self.index_texture(params, eta, "metal-Cu-eta")?;
         let k = self.index_texture(params, k, "metal-Cu-k")?;
-        Ok(ConductorMaterial { eta, k, reflectance: white })
+        Ok(ConductorMaterial { eta, k, reflectance: self.spectrum(params, &["tint"], Vec3::ONE)? })
     }
 
     /// A matt base below a clear coat.
@@ -226,20 +200,33 @@ impl Importer<'_> {
         if kr != Vec3::ZERO && kr.element_sum() > mean(self, "Kd")?.element_sum() {
             return Ok(MirrorMaterial { reflect: self.spectrum(params, &["Kr"], Vec3::ZERO)? }.into());
         }
+        if !self.has_gloss(params)? {
+            return self.matt_base(params, 0.25);
+        }
         Ok(self.coated("uber", params)?.into())
+    }
+
+    /// Whether version 3's `Ks` reflects anything: its boundary is that of the index, and an index of 1 has none.
+    fn has_gloss(&mut self, params: &Params) -> Found<bool> {
+        let is_black = match params.get("Ks").cloned() {
+            Some(param) if param.kind != "texture" => self.mean_spectrum(&param)? == Vec3::ZERO,
+            _ => false,
+        };
+        Ok(!is_black && self.eta(params, 1.5)?.d() != 1.0)
+    }
+
+    /// What is left of `plastic` and `uber` without gloss.
+    fn matt_base(&mut self, params: &Params, default: f32) -> Found<Material> {
+        params.ignore(&["Ks", "Kr", "Kt", "roughness", "uroughness", "vroughness", "remaproughness", "index", "eta"]);
+        Ok(DiffuseMaterial { reflectance: self.spectrum(params, &["Kd"], Vec3::splat(default))? }.into())
     }
 
     /// The nearest model for what has none of its own.
     fn substitute(&mut self, name: &str, params: &Params) -> Found<Material> {
         let (what, model): (&str, Material) = match name {
-            "thindielectric" => ("a boundary that lets all through", {
-                let white = self.target.builder().constant(Vec3::ONE);
-                params.ignore(&["eta"]);
-                DielectricMaterial { eta: Ior::Constant(1.0), reflectance: white, transmittance: white }.into()
-            }),
             "coatedconductor" => ("its metal without the coat", {
                 let names = ["conductor.roughness", "conductor.uroughness", "conductor.vroughness"];
-                let alpha = self.alpha(params, names, 0.0)?;
+                let alpha = self.roughness(params, names, 0.0)?;
                 params.ignore(&[
                     "interface.roughness",
                     "interface.uroughness",
@@ -248,7 +235,7 @@ impl Importer<'_> {
                 ]);
                 params.ignore(&["thickness", "g", "albedo", "maxdepth", "nsamples"]);
                 let metal = self.metal(params, ["conductor.eta", "conductor.k", "reflectance"])?;
-                if alpha > 0.0 { RoughConductorMaterial { metal, alpha: alpha.into() }.into() } else { metal.into() }
+                alpha.map_or_else(|| metal.into(), |alpha| RoughConductorMaterial { metal, alpha }.into())
             }),
             "subsurface" | "kdsubsurface" => ("a matt surface", {
                 params.ignore(&["mfp", "eta", "g", "sigma_a", "sigma_s", "scale", "name", "roughness", "uroughness"]);
@@ -278,32 +265,6 @@ impl Importer<'_> {
         };
         self.near(name, params, what);
         Ok(model)
-    }
-
-    /// The heavier one of two materials.
-    fn mix(&mut self, params: &Params) -> Found<Cover> {
-        let names: Vec<String> = match params.get("materials").and_then(|p| p.strings()) {
-            Some(names) => names.to_vec(),
-            None => ["namedmaterial1", "namedmaterial2"]
-                .into_iter()
-                .filter_map(|n| params.string(n).transpose().map(|s| s.map(str::to_owned)))
-                .collect::<Found<_>>()?,
-        };
-        let second = match params.get("amount").cloned() {
-            // Version 3 gives the share of the first as a colour, version 4 that of the second as a number.
-            Some(param) if param.kind == "float" || param.kind == "texture" => self.float(params, "amount", 0.5)?,
-            Some(param) => 1.0 - f64::from(self.mean_spectrum(&param)?.element_sum() / 3.0),
-            None => 0.5,
-        };
-        let [first, other] = names.as_slice() else {
-            return Err(params.bad("pbrt::mix", "a mix needs the names of two materials"));
-        };
-        let chosen = if second > 0.5 { other } else { first };
-        self.near("mix", params, &format!("the heavier one of the two, here `{}`", shortened(chosen)));
-        match self.named_materials.get(chosen) {
-            Some(cover) => Ok(*cover),
-            None => Err(unknown(&params.at, "material", chosen, self.named_materials.keys().map(String::as_str))),
-        }
     }
 
     /// The colour under the first of the names that is given, as a texture.

@@ -10,6 +10,7 @@
 //! version 3) and from the book, Pharr, Jakob & Humphreys, "Physically Based Rendering", 2016 and 2023.
 
 mod cameras;
+mod covers;
 mod curve;
 mod curved;
 mod directives;
@@ -19,8 +20,13 @@ mod lens;
 mod lexer;
 mod lights;
 mod materials;
+mod meshes;
+mod ours;
 mod params;
 mod picture;
+mod projected;
+mod roughness;
+mod sensor;
 mod shapes;
 mod spectra;
 mod state;
@@ -31,6 +37,7 @@ mod textures;
 mod tokens;
 mod transforms;
 mod words;
+pub mod write;
 
 pub(crate) use import::FORMAT;
 pub use import::check;

@@ -2,18 +2,23 @@
 
 use super::directives::{Importer, unknown, warning};
 use super::params::{Found, Params};
+use super::sensor::white_balance;
+use crate::lines::shortened;
 use crate::load::Hints;
-use glam::{DAffine3, DVec2};
+use glam::{DAffine3, DVec2, Mat3, Vec3};
 use std::ops::RangeInclusive;
 
 const FILMS: [&str; 4] = ["gbuffer", "image", "rgb", "spectral"];
+
+/// pbrt's `maxdepth` of every integrator.
+const DEFAULT_DEPTH: u32 = 5;
 
 /// Sides of a picture in pixels.
 const SIDES: RangeInclusive<i64> = 1..=1 << 20;
 
 /// What was said so far; of directives given twice, the last one counts.
 pub(super) struct Picture {
-    pub(super) camera: Option<(String, Params, DAffine3)>,
+    pub(super) camera: Option<(String, Params, [DAffine3; 2])>,
     pub(super) sampler: Option<Params>,
     pub(super) filter: Option<(String, Params)>,
     pub(super) integrator: Option<(String, Params)>,
@@ -33,11 +38,13 @@ pub(super) struct Film {
     scale: f32,
     /// Millimetres from corner to corner.
     pub(super) diagonal: f64,
+    /// What takes the colours of light to those that the sensor's white balance makes of them.
+    balance: Option<Mat3>,
 }
 
 impl Default for Picture {
     fn default() -> Self {
-        let film = Film { size: [1280, 720], crop: [[0, 1280], [0, 720]], scale: 1.0, diagonal: 35.0 };
+        let film = Film { size: [1280, 720], crop: [[0, 1280], [0, 720]], scale: 1.0, diagonal: 35.0, balance: None };
         Self { camera: None, sampler: None, filter: None, integrator: None, is_version_3: false, film }
     }
 }
@@ -45,13 +52,20 @@ impl Default for Picture {
 impl Picture {
     /// What all light is multiplied by so that pixel values are those of pbrt's film.
     pub(super) fn exposure(&self) -> f32 {
-        let shutter = |(_, params, _): &(String, Params, DAffine3)| {
+        let shutter = |(_, params, _): &(String, Params, [DAffine3; 2])| {
             let open = params.number("shutteropen", 0.0).ok()?;
             let close = params.number("shutterclose", 1.0).ok()?;
             (close > open).then_some((close - open) as f32)
         };
         let time = if self.is_version_3 { None } else { self.camera.as_ref().and_then(shutter) };
         self.film.scale * time.unwrap_or(1.0)
+    }
+}
+
+impl Film {
+    /// A colour of light as the film sees it.
+    pub(super) fn balanced(&self, light: Vec3) -> Option<Vec3> {
+        self.balance.map(|m| (m * light).max(Vec3::ZERO))
     }
 }
 
@@ -71,17 +85,26 @@ impl Importer<'_> {
         if scale <= 0.0 {
             return Err(params.bad("pbrt::value", "the film's `scale` and `iso` must be greater than 0"));
         }
+        let balance = self.balance(params)?;
         let diagonal = params.number("diagonal", 35.0)?;
-        self.picture.film = Film { size, crop, scale: scale as f32, diagonal };
-        let sensor = params.string("sensor")?.unwrap_or("cie1931").to_owned();
-        if sensor != "cie1931" || params.get("whitebalance").is_some() {
-            let message = "colours are those of the standard observer, whatever the sensor and its white balance";
-            self.warn_once("pbrt::sensor", "", || params.at.tell(warning("pbrt::sensor", message), ""));
-        }
+        self.picture.film = Film { size, crop, scale: scale as f32, diagonal, balance };
         params.ignore(&["filename", "savefp16", "maxcomponentvalue", "maxsampleluminance", "coordinatesystem"]);
         params.ignore(&["nbuckets", "lambdamin", "lambdamax"]);
         self.tell_unused(params);
         Ok(())
+    }
+
+    /// The white balance of the sensor: what it takes for white becomes white. As in pbrt, the standard observer does none
+    /// unless it is asked to, and cameras are balanced for 6500 K.
+    fn balance(&mut self, params: &Params) -> Found<Option<Mat3>> {
+        let sensor = params.string("sensor")?.unwrap_or("cie1931").to_owned();
+        let asked = params.number("whitebalance", 0.0)?;
+        if sensor != "cie1931" {
+            let message = format!("the sensor `{}` is taken as one that sees as people do", shortened(&sensor));
+            self.warn_once("pbrt::sensor", "", || params.at.tell(warning("pbrt::sensor", message), ""));
+        }
+        let kelvin = if sensor != "cie1931" && asked == 0.0 { 6500.0 } else { asked };
+        Ok((kelvin > 0.0).then(|| white_balance(kelvin)))
     }
 
     /// Hands everything to the target.
@@ -96,8 +119,12 @@ impl Importer<'_> {
             self.target.camera = Some(self.picture.film.look(DAffine3::IDENTITY, window, Some(90.0)));
             return Ok(());
         };
-        let settings = self.camera_settings(&name, &params, camera_from_world)?;
+        let [open, close] = camera_from_world;
+        let settings = self.camera_settings(&name, &params, open)?;
         self.target.camera = Some(settings);
+        if open != close {
+            self.target.camera_to = Some(self.camera_settings(&name, &params, close)?);
+        }
         params.ignore(&["shutteropen", "shutterclose", "lensfile", "aperturediameter", "filmdiag", "mapping"]);
         self.tell_unused(&params);
         Ok(())
@@ -117,8 +144,12 @@ impl Importer<'_> {
                 hints.passes = Some((x * y) as u64);
             }
         }
+        // What pbrt does when the file says nothing.
+        hints.scatterings = Some(DEFAULT_DEPTH);
         if let Some((name, params)) = self.picture.integrator.take() {
-            hints.scatterings = params.integer("maxdepth", 0..=10_000_000)?.map(|n| n.min(10_000) as u32);
+            let depth = params.integer("maxdepth", 0..=10_000_000)?.map_or(DEFAULT_DEPTH, |n| n.min(5_000) as u32);
+            // Photons and camera paths are counted on their own there.
+            hints.scatterings = Some(if name == "sppm" { 2 * depth } else { depth });
             hints.photons = params.integer("photonsperiteration", -1..=1 << 40)?.filter(|n| *n > 0).map(|n| n as u64);
             if let Some(n) = params.integer("numiterations", 1..=1_000_000_000)? {
                 hints.passes = Some(n as u64);

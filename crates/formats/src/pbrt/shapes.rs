@@ -4,15 +4,15 @@ use super::curved;
 use super::directives::{Importer, bad, unknown, warning};
 use super::params::{Found, Params, single};
 use super::state::Cover;
-use crate::diagnostic::{Diagnostic, SourceFile};
-use crate::files::first_of;
 use crate::ply::{self, PlyMesh};
 use crate::tessellate::valid;
 use glam::{Affine3A, DAffine3, Vec2, Vec3};
-use sunfleck::bsdf::BlackMaterial;
+use sunfleck::bsdf::{BlackMaterial, Scalar};
+use sunfleck::light::Sides;
 use sunfleck::math::Motion;
 use sunfleck::scene::{MaterialId, SurfaceDef};
-use sunfleck::shape::{Shape, Sphere};
+use sunfleck::shape::{Parallelogram, Shape, Sphere};
+use sunfleck::spectrum::Illuminant;
 
 const SHAPES: [&str; 13] = [
     "bilinearmesh",
@@ -35,7 +35,7 @@ impl Importer<'_> {
         let params = self.with_defaults("shape", params);
         let shape = self.geometry(name, &params)?;
         params.ignore(&["facenormals", "edgelength", "displacement", "shadowalpha"]);
-        let visible = self.is_visible(&params);
+        let alpha = self.alpha_of(&params)?;
         self.tell_unused(&params);
         if let Some(Shape::Mesh(mesh)) = &shape
             && name != "plymesh"
@@ -43,24 +43,27 @@ impl Importer<'_> {
         {
             self.cut += mesh.indices().len();
         }
-        if visible && let Some(shape) = shape {
-            self.add(shape, &params)?;
+        if let (Some(alpha), Some(shape)) = (alpha, shape) {
+            self.add(shape, alpha, &params)?;
         }
         Ok(())
     }
 
-    /// Whether something of the shape is to be seen. What we cannot show is told of.
-    fn is_visible(&mut self, params: &Params) -> bool {
-        let Some(param) = params.get("alpha") else { return true };
-        let message = match param.numbers().and_then(|n| n.first().copied()) {
-            Some(alpha) if alpha >= 1.0 => return true,
-            Some(alpha) if alpha <= 0.0 && self.state.area_light.is_none() => return false,
-            Some(alpha) if alpha <= 0.0 => "a light that its file hides is shown",
-            _ => "what `alpha` makes partly transparent is opaque",
-        };
-        let at = param.at.clone();
-        self.warn_once("pbrt::alpha", message, || at.tell(warning("pbrt::alpha", message), ""));
-        true
+    /// What is to be seen of a shape by its `alpha`; `None` for nothing.
+    fn alpha_of(&mut self, params: &Params) -> Found<Option<Scalar>> {
+        let all = Some(Scalar::Constant(1.0));
+        let Some(param) = params.get("alpha").cloned() else { return Ok(all) };
+        let opacity = self.opacity(&param)?;
+        if opacity.is_some() && self.state.area_light.is_some() {
+            let message = "a light that its file hides, or that has holes, is shown whole";
+            self.warn_once("pbrt::alpha", message, || param.at.tell(warning("pbrt::alpha", message), ""));
+            return Ok(all);
+        }
+        Ok(match opacity {
+            None => all,
+            Some(Scalar::Constant(alpha)) if alpha <= 0.0 => None,
+            Some(opacity) => Some(opacity),
+        })
     }
 
     /// The shape in world space; `None` if there is nothing to see of it, which is told of.
@@ -69,7 +72,11 @@ impl Importer<'_> {
         match name {
             "trianglemesh" => {
                 let mesh = triangle_mesh(params)?;
-                Ok(self.mesh(mesh, params))
+                let patch = parallelogram(&mesh).filter(|_| !self.state.reverse && world.matrix3.determinant() > 0.0);
+                match patch.and_then(|patch| Shape::Parallelogram(patch).transformed(&rounded(&world))) {
+                    Some(patch) => Ok(Some(patch)),
+                    None => Ok(self.mesh(mesh, params)),
+                }
             }
             "plymesh" => self.ply_mesh(params),
             "sphere" => {
@@ -105,56 +112,40 @@ impl Importer<'_> {
         }
     }
 
-    fn ply_mesh(&mut self, params: &Params) -> Found<Option<Shape>> {
-        let Some(name) = params.string("filename")? else {
-            return Err(params.bad("pbrt::no-file", "a mesh needs a `filename`"));
-        };
-        let at = params.get("filename").map_or(&params.at, |p| &p.at).clone();
-        let path = self.files.find(name, at.source.name());
-        let source = match self.files.read(&path) {
-            Ok(bytes) => SourceFile::from_bytes(path.display().to_string(), bytes),
-            Err(error) => {
-                let told = Diagnostic { severity: crate::Severity::Warning, ..first_of(error) };
-                self.target.sink.warn("pbrt::missing-mesh", || Diagnostic {
-                    code: "pbrt::missing-mesh",
-                    ..at.tell(told, "left out")
-                });
-                return Ok(None);
-            }
-        };
-        self.target.input(source.bytes());
-        let mesh = ply::parse(&source, &mut self.target.sink);
-        Ok(self.named_mesh(mesh, source.name()))
-    }
-
     fn mesh(&mut self, mesh: PlyMesh, params: &Params) -> Option<Shape> {
         let name = params.at.source.name().to_owned();
         self.named_mesh(mesh, &name)
     }
 
-    fn named_mesh(&mut self, mut mesh: PlyMesh, name: &str) -> Option<Shape> {
+    /// Moves a mesh into the world.
+    pub(super) fn named_mesh(&mut self, mut mesh: PlyMesh, name: &str) -> Option<Shape> {
         ply::place(&mut mesh, &self.state.world_from_object(), self.state.reverse, name, &mut self.target.sink);
         ply::shape(&mesh, name, &mut self.target.sink)
     }
 
     /// Adds a shape with what covers it and what it emits.
-    fn add(&mut self, shape: Shape, params: &Params) -> Found<()> {
+    fn add(&mut self, shape: Shape, alpha: Scalar, params: &Params) -> Found<()> {
         let emission = match self.state.area_light.clone() {
             Some(light) => self.emission(&light, shape.area())?,
             None => None,
         };
         let Some(material) = self.cover_of(emission.is_some()) else { return Ok(()) };
-        if self.object.is_some() {
-            if emission.is_some() {
-                let message = "lights in objects do not shine, as in pbrt";
-                self.warn_once("pbrt::light-in-object", "", || {
-                    params.at.tell(warning("pbrt::light-in-object", message), "")
-                });
-            }
-            if let Some((_, surfaces)) = &mut self.object {
-                surfaces.push(SurfaceDef { shape, material, emission: None });
-            }
-            return Ok(());
+        let material = if alpha == Scalar::Constant(1.0) { material } else { self.masked(material, alpha) };
+        if self.object.is_some() && emission.is_some() {
+            let message = "lights in objects do not shine, as in pbrt";
+            self.warn_once("pbrt::light-in-object", "", || {
+                params.at.tell(warning("pbrt::light-in-object", message), "")
+            });
+        }
+        self.add_covered(shape, material, emission);
+        Ok(())
+    }
+
+    /// Adds a shape to the world or to the object that is being defined.
+    pub(super) fn add_covered(&mut self, shape: Shape, material: MaterialId, emission: Option<(Illuminant, Sides)>) {
+        if let Some((_, surfaces)) = &mut self.object {
+            surfaces.push(SurfaceDef { shape, material, emission: None });
+            return;
         }
         if let Some([from, to]) = self.motion()
             && let Some(shape) = shape.transformed(&from.inverse())
@@ -162,10 +153,9 @@ impl Importer<'_> {
         {
             let object = self.target.object(vec![SurfaceDef { shape, material, emission }]);
             self.target.place_moving(object, from, to);
-            return Ok(());
+            return;
         }
         self.target.surface(shape, material, emission);
-        Ok(())
     }
 
     /// The way of what moves, as two placements of what is turned and stretched already as the shutter opens, but lies
@@ -229,6 +219,18 @@ impl Importer<'_> {
         }
         Ok(())
     }
+}
+
+/// The patch that a mesh of four corners is, with the texture coordinates of one: it has exact points of its own.
+fn parallelogram(mesh: &PlyMesh) -> Option<Parallelogram> {
+    let is_patch = mesh.triangles == Parallelogram::TRIANGLES
+        && mesh.uvs == [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]
+        && mesh.normals.is_empty();
+    let [a, b, c, d] = mesh.positions.iter().map(|p| Vec3::from_array(*p)).collect::<Vec<_>>()[..] else { return None };
+    let (u, v) = (b - a, d - a);
+    let off = (a + u + v - c).abs().max_element();
+    let size = a.abs().max(c.abs()).max_element().max(u.length()).max(v.length());
+    (is_patch && u.cross(v) != Vec3::ZERO && off <= 1e-6 * size).then(|| Parallelogram::new(a, u, v))
 }
 
 /// In the precision of the scene.

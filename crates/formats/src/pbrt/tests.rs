@@ -1,5 +1,7 @@
 //! Whole scenes, written to a folder of their own.
 
+mod looks;
+
 use crate::load::{LoadOptions, Loaded, load};
 use crate::{Diagnostic, Error};
 use glam::{Vec2, Vec3};
@@ -249,7 +251,7 @@ const ALL: &str = "Film \"rgb\" \"integer xresolution\" 64 \"float iso\" 200 \"f
     Shape \"loopsubdiv\" \"integer levels\" 2 \"point3 P\" [0 0 0 1 0 0 0 1 0 0 0 1] \"integer indices\" [0 2 1 0 1 3 1 2 3 2 0 3]\n\
     ObjectBegin \"o\" Shape \"sphere\" ObjectEnd Rotate 30 0 1 0 ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\n\
     ObjectInstance \"o\" ReverseOrientation AreaLightSource \"diffuse\" \"blackbody L\" 4000 \"float power\" 10 Shape \"sphere\"\n\
-    LightSource \"infinite\" \"float illuminance\" 3 LightSource \"spot\" \"spectrum I\" [400 1 700 2] LightSource \"projection\"\n\
+    LightSource \"infinite\" \"float illuminance\" 3 LightSource \"spot\" \"spectrum I\" [400 1 700 2] LightSource \"projection\" \"string filename\" \"a.png\"\n\
     LightSource \"distant\" LightSource \"point\" MakeNamedMedium \"f\" MediumInterface \"\" \"f\" CoordSysTransform \"c\"\n";
 
 #[test]
@@ -326,7 +328,7 @@ fn parallel_and_spherical_cameras_see_what_pbrts_do() {
     );
     let middle = window.ray(Vec2::splat(0.5), Vec2::new(0.2, 0.9)).ray;
     // Uneven scaling: only the distance is that of z.
-    assert!((middle.at(5.0 / middle.d.z) - Vec3::new(3.0, 2.0, 8.0)).length() < 1e-5, "{middle:?}");
+    assert!((middle.at(5.0 / middle.d.z) - Vec3::new(5.0, 2.0, 8.0)).length() < 1e-5, "{middle:?}");
     // Longitude from x over z to -x; the pole y at the top.
     for camera in ["\"environment\"", "\"spherical\" \"string mapping\" \"equirectangular\""] {
         let around = look(&format!("Camera {camera}"));

@@ -206,9 +206,23 @@ impl Importer<'_> {
         Ok(f64::from(self.named_texture(&param)?.mean.element_sum() / 3.0))
     }
 
-    fn tell_mean(&mut self, param: &Param) {
+    pub(super) fn tell_mean(&mut self, param: &Param) {
         let message = format!("the texture of `{}` is taken as its mean everywhere", param.name);
         self.warn_once("pbrt::mean", &param.name, || param.at.tell(warning("pbrt::mean", message), ""));
+    }
+
+    /// A picture of normals; `None` with a warning if it is missing.
+    pub(super) fn normal_map(&mut self, params: &Params) -> Found<Option<TextureId>> {
+        let Some((image, _)) = self.picture_file(params, "normalmap")? else { return Ok(None) };
+        // The numbers as they are stored.
+        let is_encoded = !holds_floats(params.string("normalmap")?.unwrap_or_default());
+        let stored = |p: &[f32; 3]| {
+            let v = Vec3::from_array(*p);
+            if is_encoded { v.map(srgb_from_linear) } else { v }
+        };
+        let pixels = image.data.iter().map(stored).collect();
+        let texture = ImageTexture::new(image.width as usize, image.height as usize, pixels, Wrap::Repeat);
+        Ok(texture.map(|t| self.target.builder().texture(Texture::Image(t))))
     }
 
     fn image_map(&mut self, params: &Params) -> Found<Made> {
@@ -221,8 +235,11 @@ impl Importer<'_> {
         let Some((image, _)) = self.picture_file(params, "filename")? else { return Ok(self.constant(MISSING)) };
         let decode =
             decoder(&encoding).ok_or_else(|| params.misfit("encoding", "`sRGB`, `linear` or `gamma` and a number"))?;
+        // Files of floats hold linear values, whatever is said.
+        let is_encoded = !holds_floats(params.string("filename")?.unwrap_or_default());
         let value = |p: &[f32; 3]| {
-            let v = Vec3::from_array(*p).map(&decode);
+            let v = Vec3::from_array(*p);
+            let v = if is_encoded { v.map(&decode) } else { v };
             scale * if invert { (Vec3::ONE - v).max(Vec3::ZERO) } else { v }
         };
         let pixels: Vec<Vec3> = image.data.iter().map(value).collect();
@@ -254,6 +271,12 @@ impl Importer<'_> {
             }
         }
     }
+}
+
+/// Whether the name is that of a picture of floats.
+fn holds_floats(name: &str) -> bool {
+    let name = name.to_lowercase();
+    [".exr", ".hdr", ".pfm"].iter().any(|e| name.ends_with(e))
 }
 
 /// Repetitions and shift of texture coordinates. Other mappings than that of the surface are taken as it.

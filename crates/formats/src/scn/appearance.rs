@@ -27,7 +27,9 @@ pub(super) fn appearance(
     let mut properties = Properties::new(material, source, target);
     properties.warn_of_unknown();
     let model = model(&mut properties, options.compat);
-    target.builder().material(model)
+    let id = target.builder().material(model);
+    target.name_material(&material.name.value, id);
+    id
 }
 
 fn model(p: &mut Properties, compat: bool) -> Material {

@@ -17,6 +17,14 @@ impl DirectionalLight {
     pub fn new(direction: Vec3, irradiance: impl Into<Illuminant>) -> Option<Self> {
         Some(Self { direction: direction.try_normalize()?, irradiance: irradiance.into() })
     }
+    /// Unit direction in which the light travels.
+    pub fn direction(&self) -> Vec3 {
+        self.direction
+    }
+    /// Irradiance (W/m²) of a surface that faces it.
+    pub fn irradiance(&self) -> &Illuminant {
+        &self.irradiance
+    }
 }
 
 impl Emitter for DirectionalLight {

@@ -37,6 +37,20 @@ pub enum EnvironmentError {
 /// Density (1/sr) of a direction out of all.
 const UNIFORM: f32 = 0.25 / PI;
 
+/// Whether a picture can be light on the sphere.
+pub(super) fn check_map(image: &ImageTexture, world_from_map: Mat3) -> Result<(), EnvironmentError> {
+    if !(world_from_map * world_from_map.transpose()).abs_diff_eq(Mat3::IDENTITY, 1e-3) {
+        return Err(EnvironmentError::NotARotation(world_from_map));
+    }
+    for (y, x) in (0..image.height()).flat_map(|y| (0..image.width()).map(move |x| (y, x))) {
+        let value = image.pixel(x, y);
+        if !(value.is_finite() && value.min_element() >= 0.0) {
+            return Err(EnvironmentError::Pixel { x, y, value });
+        }
+    }
+    Ok(())
+}
+
 impl EnvironmentLight {
     /// The same `radiance` (W/(m²·sr)) from everywhere.
     pub fn constant(radiance: impl Into<Illuminant>) -> Self {
@@ -53,16 +67,16 @@ impl EnvironmentLight {
         scale: impl Into<Illuminant>,
         world_from_map: Mat3,
     ) -> Result<Self, EnvironmentError> {
-        if !(world_from_map * world_from_map.transpose()).abs_diff_eq(Mat3::IDENTITY, 1e-3) {
-            return Err(EnvironmentError::NotARotation(world_from_map));
-        }
-        for (y, x) in (0..image.height()).flat_map(|y| (0..image.width()).map(move |x| (y, x))) {
-            let value = image.pixel(x, y);
-            if !(value.is_finite() && value.min_element() >= 0.0) {
-                return Err(EnvironmentError::Pixel { x, y, value });
-            }
-        }
+        check_map(&image, world_from_map)?;
         Ok(Self { radiance: scale.into(), panorama: Some(Box::new(Panorama::new(image, world_from_map))) })
+    }
+    /// Radiance, W/(m²·sr); of a panorama where it is white.
+    pub fn radiance(&self) -> &Illuminant {
+        &self.radiance
+    }
+    /// The picture, and what takes its axes to the world's, if there is one.
+    pub fn picture(&self) -> Option<(&ImageTexture, Mat3)> {
+        self.panorama.as_ref().map(|p| p.image())
     }
     /// Radiance arriving from the unit direction `d`.
     #[inline]

@@ -6,15 +6,19 @@
 mod area;
 mod directional;
 mod environment;
+mod goniometric;
 mod panorama;
 mod point;
+mod projection;
 mod spot;
 mod table;
 
 pub use area::{AreaLight, Sides};
 pub use directional::DirectionalLight;
 pub use environment::{EnvironmentError, EnvironmentLight};
+pub use goniometric::GoniometricLight;
 pub use point::PointLight;
+pub use projection::{ProjectionError, ProjectionLight};
 pub use spot::{Rim, SpotError, SpotLight};
 pub use table::LightTable;
 
@@ -258,6 +262,8 @@ lights![
     Spot(SpotLight),
     Directional(DirectionalLight),
     Environment(EnvironmentLight),
+    Goniometric(GoniometricLight),
+    Projection(ProjectionLight),
 ];
 
 impl AreaSample {

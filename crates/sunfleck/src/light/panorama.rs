@@ -56,6 +56,10 @@ impl Panorama {
         let p = self.place(d);
         self.image.eval(Vec2::new(p.x, 1.0 - p.y))
     }
+    /// The picture, and what takes its axes to the world's.
+    pub(super) fn image(&self) -> (&ImageTexture, Mat3) {
+        (&self.image, self.world_from_map)
+    }
     /// Integral of [`Panorama::eval`] over all directions.
     pub(super) fn integral(&self) -> Rgb {
         self.integral

@@ -113,9 +113,29 @@ impl SpotLight {
     pub fn with_rim(self, rim: Rim) -> Self {
         Self { rim, ..self }
     }
+    /// Position.
+    pub fn position(&self) -> Vec3 {
+        self.p
+    }
+    /// Unit direction of the cone's axis.
+    pub fn direction(&self) -> Vec3 {
+        self.axis.n
+    }
+    /// Radiant intensity (W/sr) on the axis.
+    pub fn intensity(&self) -> &Illuminant {
+        &self.intensity
+    }
+    /// Angles (radians) with the axis where the intensity begins to fall and where it is gone.
+    pub fn angles(&self) -> [f32; 2] {
+        [self.hot, self.out].map(|v| 2.0 * (0.5 * v).sqrt().min(1.0).asin())
+    }
+    /// How it falls in between.
+    pub fn rim(&self) -> Rim {
+        self.rim
+    }
     /// Share of the intensity that leaves in the unit direction `d`.
     #[inline]
-    fn falloff(&self, d: Vec3) -> f32 {
+    pub fn falloff(&self, d: Vec3) -> f32 {
         let v = 0.5 * d.distance_squared(self.axis.n);
         if v <= self.hot {
             return 1.0;

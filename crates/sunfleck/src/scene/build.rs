@@ -3,6 +3,7 @@ use super::{
     MaterialId, ObjectId, Scene, Surface, TextureId,
     moment::{Moment, Placement, freeze, hierarchies},
     moving::{Emitters, Geometry, Moving, Place, Places},
+    parts::{Instance, Parts},
 };
 use crate::{
     bsdf::{Material, cover::is_porous},
@@ -72,15 +73,6 @@ pub struct SceneBuilder {
     quality: Quality,
 }
 
-/// An object's placements as the shutter opens and as it closes.
-#[derive(Clone, Copy, Debug)]
-struct Instance {
-    object: ObjectId,
-    from: Affine3A,
-    /// If it moves.
-    to: Option<Affine3A>,
-}
-
 /// How much time the ray index may take to build.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum Quality {
@@ -95,6 +87,20 @@ impl SceneBuilder {
     /// An empty scene.
     pub fn new() -> Self {
         Self::default()
+    }
+    /// What was added so far.
+    pub fn parts(&self) -> Parts<'_> {
+        let Self { textures, materials, surfaces, objects, instances, lights, .. } = self;
+        Parts { textures, materials, surfaces, objects, instances, lights }
+    }
+    /// Puts another material in the place of `id`, wherever that is used. False if there is no such material.
+    pub fn replace_material(&mut self, id: MaterialId, m: impl Into<Material>) -> bool {
+        self.materials.get_mut(id.0 as usize).map(|old| *old = m.into()).is_some()
+    }
+    /// Gives all surfaces of the material `old` the material `new`.
+    pub fn exchange_material(&mut self, old: MaterialId, new: MaterialId) {
+        let all = self.surfaces.iter_mut().chain(self.objects.iter_mut().flatten());
+        all.filter(|s| s.material == old).for_each(|s| s.material = new);
     }
     /// Adds a texture.
     pub fn texture(&mut self, t: Texture) -> TextureId {

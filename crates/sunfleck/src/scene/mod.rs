@@ -5,11 +5,13 @@ mod build;
 mod interaction;
 mod moment;
 mod moving;
+mod parts;
 mod surfaces;
 mod world;
 
 pub use build::{Quality, SceneBuilder, SceneError, SurfaceDef};
 pub use interaction::{Interaction, Scattered};
+pub use parts::{Instance, Parts};
 pub use world::{DirectSample, Sky, World};
 
 use crate::{

@@ -79,6 +79,18 @@ impl Mesh {
     pub fn indices(&self) -> &[[u32; 3]] {
         &self.indices
     }
+    /// Unit normals at the vertices, or none.
+    pub fn normals(&self) -> &[Vec3] {
+        &self.normals
+    }
+    /// Texture coordinates at the vertices, or none.
+    pub fn uvs(&self) -> &[Vec2] {
+        &self.uvs
+    }
+    /// What else the vertices know.
+    pub fn attributes(&self) -> Option<&Attributes> {
+        self.attributes.as_deref()
+    }
     pub(super) fn corners<T: Copy>(&self, values: &[T], triangle: u32) -> [T; 3] {
         self.indices[triangle as usize].map(|i| values[i as usize])
     }

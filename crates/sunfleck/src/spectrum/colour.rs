@@ -32,6 +32,10 @@ impl Colour {
     pub fn index(curve: Curve) -> Self {
         Self { rgb: curve.channels(), body: Body::Curve(curve) }
     }
+    /// The measured curve, if it is not given by RGB.
+    pub fn curve(&self) -> Option<&Curve> {
+        if let Body::Curve(curve) = &self.body { Some(curve) } else { None }
+    }
     /// The RGB stand-in.
     #[inline]
     pub fn rgb(&self) -> Rgb {
@@ -75,6 +79,10 @@ impl Illuminant {
     pub fn of_luminance(curve: &Curve, y: f32) -> Self {
         let now = curve.luminance();
         Self::spectrum(curve.scaled(if now > 0.0 { y / now } else { 0.0 }))
+    }
+    /// The spectrum and what it is multiplied by, if it is not given by RGB.
+    pub fn curve(&self) -> Option<(&Curve, f32)> {
+        self.colour.curve().map(|curve| (curve, self.scale))
     }
     /// The RGB stand-in.
     #[inline]

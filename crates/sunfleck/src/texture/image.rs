@@ -46,6 +46,10 @@ impl ImageTexture {
     pub fn height(&self) -> usize {
         self.height
     }
+    /// How it goes on beyond its edges: across and down.
+    pub fn wrap(&self) -> [Wrap; 2] {
+        self.wrap
+    }
     /// Pixel in column `x` of row `y`, the top row being 0.
     pub fn pixel(&self, x: usize, y: usize) -> Rgb {
         self.pixels[y * self.width + x]

@@ -125,7 +125,10 @@ fn every_start_has_the_density_that_is_asked_for_later() {
 /// for light from infinity that passes by the scene: plain emission has none, and nothing asks for its density.
 fn bin(world: &World, e: &Emission) -> Option<usize> {
     let (o, d) = (e.le.ray.o, e.le.ray.d);
-    if matches!(world.light(e.light), Light::Area(_) | Light::Point(_) | Light::Spot(_)) {
+    if matches!(
+        world.light(e.light),
+        Light::Area(_) | Light::Point(_) | Light::Spot(_) | Light::Goniometric(_) | Light::Projection(_)
+    ) {
         let band = ((0.5 - 0.5 * d.y) * 6.0).min(5.0) as usize;
         let sector = ((d.z.atan2(d.x) / std::f32::consts::TAU + 0.5) * 8.0).min(7.0) as usize;
         return Some(e.light.0 as usize * BINS + band * 8 + sector);

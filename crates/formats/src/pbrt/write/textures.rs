@@ -1,0 +1,242 @@
+//! Textures: pbrt has a map of coordinates on each picture or pattern, so maps are carried down to those.
+
+use super::Writer;
+use super::text::{colour, float, matrix, numbers, param, quoted, string};
+use crate::Error;
+use crate::image::RgbImage32;
+use glam::{Affine2, Vec2, Vec3};
+use sunfleck::bsdf::{Scalar, TextureId};
+use sunfleck::spectrum::Colour;
+use sunfleck::texture::{ImageTexture, Mix, Noise, NoiseKind, Texture, UvSet, VertexColour, Wrap};
+
+/// What a texture comes down to.
+enum Told {
+    /// The same everywhere.
+    Constant(Colour),
+    /// A texture that has a name.
+    Named(String),
+}
+
+impl Writer<'_> {
+    /// A parameter that is the texture `id`, as a colour.
+    pub(super) fn colour_param(&mut self, name: &str, id: TextureId) -> Result<String, Error> {
+        Ok(match self.texture(id, false, Affine2::IDENTITY)? {
+            Told::Constant(c) => colour(name, &c),
+            Told::Named(texture) => param("texture", name, &quoted(&texture)),
+        })
+    }
+
+    /// A parameter that is a number.
+    pub(super) fn scalar_param(&mut self, name: &str, s: Scalar) -> Result<String, Error> {
+        Ok(match s {
+            Scalar::Constant(x) => float(name, x),
+            Scalar::Texture(id) => match self.texture(id, true, Affine2::IDENTITY)? {
+                Told::Constant(c) => float(name, c.rgb().x),
+                Told::Named(texture) => param("texture", name, &quoted(&texture)),
+            },
+        })
+    }
+
+    /// The colour of a texture that is the same everywhere.
+    pub(super) fn constant(&self, id: TextureId) -> Option<&Colour> {
+        match &self.scene.parts.textures[id.0 as usize] {
+            Texture::Constant(c) => Some(c),
+            _ => None,
+        }
+    }
+
+    /// Tells of the texture `id` looked up under `map`, as a number if `is_float`, unless it was told of before.
+    fn texture(&mut self, id: TextureId, is_float: bool, map: Affine2) -> Result<Told, Error> {
+        let key = (id, is_float, Self::bits(&map));
+        if let Some(name) = self.textures.get(&key) {
+            return Ok(Told::Named(name.clone()));
+        }
+        let told = match &self.scene.parts.textures[id.0 as usize] {
+            Texture::Constant(c) => return Ok(Told::Constant(c.clone())),
+            Texture::Mapped(m) => {
+                if m.set == UvSet::Second {
+                    self.note("second texture coordinates are left out: the first ones are taken");
+                }
+                return self.texture(m.of, is_float, m.map * map);
+            }
+            Texture::Image(image) => self.image(image, map, |c| if is_float { Vec3::splat(c.x) } else { c })?,
+            Texture::Product(p) => return self.product(p.of, is_float, map),
+            Texture::Mix(m) => self.mix(m, is_float, map)?,
+            Texture::Checkerboard(c) => {
+                let of = self.pair(["tex1", "tex2"], c.of, is_float, map)?;
+                format!("\"checkerboard\"{of}{}", self.uv(Affine2::from(c.map) * map))
+            }
+            Texture::Dots(d) => {
+                let of = self.pair(["inside", "outside"], [d.inside, d.outside], is_float, map)?;
+                format!("\"dots\"{of}{}", self.uv(Affine2::from(d.map) * map))
+            }
+            Texture::Noise(n) => return Ok(self.noise(n, is_float, key)),
+            Texture::Channel(c) => {
+                let channel = usize::from(c.channel.min(2));
+                return self.of_picture(c.of, map, move |v| Vec3::splat(v.to_array()[channel]));
+            }
+            Texture::Threshold(t) => {
+                let cutoff = t.cutoff;
+                return self.of_picture(t.of, map, move |v| Vec3::splat(f32::from(v.x >= cutoff)));
+            }
+            Texture::Vertex(kind) => {
+                self.note("colours at vertices are left out: they are white");
+                let white = if *kind == VertexColour::Rgb { Vec3::ONE } else { Vec3::splat(1.0) };
+                return Ok(Told::Constant(white.into()));
+            }
+        };
+        Ok(Told::Named(self.tell(key, &told)))
+    }
+
+    /// Writes the directive of a texture.
+    fn tell(&mut self, key: super::TextureKey, what: &str) -> String {
+        let name = self.texture_name();
+        let kind = if key.1 { "float" } else { "spectrum" };
+        self.line(&format!("Texture \"{name}\" \"{kind}\" {what}"));
+        self.textures.insert(key, name.clone());
+        name
+    }
+
+    /// A picture of the values `value` of another.
+    fn image(&mut self, image: &ImageTexture, map: Affine2, value: impl Fn(Vec3) -> Vec3) -> Result<String, Error> {
+        let [across, down] = image.wrap();
+        let (w, h) = (image.width(), image.height());
+        // What is mirrored beyond its edges repeats after two of them.
+        let twice = |wrap| if wrap == Wrap::Mirror { 2 } else { 1 };
+        let (columns, rows) = (w * twice(across), h * twice(down));
+        let fold = |i: usize, n: usize| if i < n { i } else { 2 * n - 1 - i };
+        let pixel = |i: usize| value(image.pixel(fold(i % columns, w), fold(i / columns, h))).to_array();
+        let data = (0..columns * rows).map(pixel).collect();
+        let file = self.files.picture(RgbImage32 { width: columns as u32, height: rows as u32, data })?;
+        let is_clamped = |wrap| wrap == Wrap::Clamp;
+        if is_clamped(across) != is_clamped(down) {
+            self.note("pictures that go on differently across and up go on upwards as they do across");
+        }
+        let wrap = if is_clamped(across) { "clamp" } else { "repeat" };
+        // The picture as it was is the upper half.
+        let scale = Vec2::new(1.0 / twice(across) as f32, 1.0 / twice(down) as f32);
+        let offset = if down == Wrap::Mirror { Vec2::new(0.0, 0.5) } else { Vec2::ZERO };
+        let map = Affine2::from_scale_angle_translation(scale, 0.0, offset) * map;
+        Ok(format!("\"imagemap\"{}{}{}", string("filename", &file), string("wrap", wrap), self.uv(map)))
+    }
+
+    /// A texture made of a picture, if `of` is one.
+    fn of_picture(&mut self, of: TextureId, map: Affine2, value: impl Fn(Vec3) -> Vec3) -> Result<Told, Error> {
+        match &self.scene.parts.textures[of.0 as usize] {
+            Texture::Constant(c) => Ok(Told::Constant(value(c.rgb()).into())),
+            Texture::Mapped(m) => self.of_picture(m.of, m.map * map, value),
+            Texture::Image(image) => {
+                let what = self.image(image, map, value)?;
+                let name = format!("t{}", self.textures.len());
+                // Kept under a key that nothing else has.
+                let key = (TextureId(u32::MAX - self.textures.len() as u32), true, Self::bits(&map));
+                self.line(&format!("Texture \"{name}\" \"float\" {what}"));
+                self.textures.insert(key, name.clone());
+                Ok(Told::Named(name))
+            }
+            _ => {
+                self.note("channels and stencils of textures other than pictures are left out");
+                Ok(Told::Constant(Vec3::splat(0.5).into()))
+            }
+        }
+    }
+
+    /// pbrt multiplies by numbers only: colours are multiplied into what they tint.
+    fn product(&mut self, of: [TextureId; 2], is_float: bool, map: Affine2) -> Result<Told, Error> {
+        let key = (TextureId(u32::MAX - self.textures.len() as u32), is_float, Self::bits(&map));
+        let [a, b] = of.map(|id| self.constant(id).map(Colour::rgb));
+        if let (Some(a), Some(b)) = (a, b) {
+            return Ok(Told::Constant((a * b).into()));
+        }
+        let (tint, other) = match (a, b) {
+            (Some(tint), _) => (tint, of[1]),
+            (_, Some(tint)) => (tint, of[0]),
+            _ => {
+                let pair = self.pair(["tex", "scale"], of, is_float, map)?;
+                if !is_float {
+                    self.note("pbrt itself multiplies textures by numbers only");
+                }
+                return Ok(Told::Named(self.tell(key, &format!("\"scale\"{pair}"))));
+            }
+        };
+        if let Some((image, map)) = self.picture_of(other, map) {
+            let image = image.clone();
+            let what = self.image(&image, map, |c| if is_float { Vec3::splat(c.x * tint.x) } else { c * tint })?;
+            return Ok(Told::Named(self.tell(key, &what)));
+        }
+        let kind = if is_float { "float" } else { "rgb" };
+        let values = if is_float { tint.x.to_string() } else { numbers(tint.to_array()) };
+        let tex = match self.texture(other, is_float, map)? {
+            Told::Named(name) => param("texture", "tex", &quoted(&name)),
+            Told::Constant(c) => return Ok(Told::Constant((c.rgb() * tint).into())),
+        };
+        Ok(Told::Named(self.tell(key, &format!("\"scale\"{tex}{}", param(kind, "scale", &values)))))
+    }
+
+    /// The picture that `id` is, under its maps.
+    fn picture_of(&self, id: TextureId, map: Affine2) -> Option<(&ImageTexture, Affine2)> {
+        match &self.scene.parts.textures[id.0 as usize] {
+            Texture::Image(image) => Some((image, map)),
+            Texture::Mapped(m) if m.set == UvSet::First => self.picture_of(m.of, m.map * map),
+            _ => None,
+        }
+    }
+
+    fn mix(&mut self, m: &Mix, is_float: bool, map: Affine2) -> Result<String, Error> {
+        let of = self.pair(["tex1", "tex2"], [m.from, m.to], is_float, map)?;
+        let amount = match self.texture(m.amount, true, map)? {
+            Told::Constant(c) => float("amount", c.rgb().x),
+            Told::Named(name) => param("texture", "amount", &quoted(&name)),
+        };
+        Ok(format!("\"mix\"{of}{amount}"))
+    }
+
+    /// Two textures as parameters.
+    fn pair(&mut self, names: [&str; 2], of: [TextureId; 2], is_float: bool, map: Affine2) -> Result<String, Error> {
+        let mut all = String::new();
+        for (name, id) in names.into_iter().zip(of) {
+            all += &match self.texture(id, is_float, map)? {
+                Told::Constant(c) if is_float => float(name, c.rgb().x),
+                Told::Constant(c) => colour(name, &c),
+                Told::Named(texture) => param("texture", name, &quoted(&texture)),
+            };
+        }
+        Ok(all)
+    }
+
+    /// Noise is a number for pbrt: as a colour it mixes black and white. Marble is a colour only.
+    fn noise(&mut self, n: &Noise, is_float: bool, key: super::TextureKey) -> Told {
+        let octaves = |octaves: u32, roughness: f32| {
+            param("integer", "octaves", &octaves.to_string()) + &float("roughness", roughness)
+        };
+        let (class, params) = match n.kind {
+            NoiseKind::Fbm { octaves: o, roughness } => ("fbm", octaves(o, roughness)),
+            NoiseKind::Wrinkled { octaves: o, roughness } => ("wrinkled", octaves(o, roughness)),
+            NoiseKind::Windy => ("windy", String::new()),
+            NoiseKind::Marble { octaves: o, roughness, variation } => {
+                ("marble", octaves(o, roughness) + &float("variation", variation))
+            }
+        };
+        self.line(&format!("AttributeBegin\n  Transform {}", matrix(&n.pattern_from_world.inverse())));
+        let is_colour = class == "marble";
+        let of = self.tell((key.0, !is_colour, key.2), &format!("\"{class}\"{params}"));
+        self.line("AttributeEnd");
+        if is_colour != is_float {
+            return Told::Named(of);
+        }
+        let amount = param("texture", "amount", &quoted(&of));
+        Told::Named(self.tell(key, &format!("\"mix\" \"rgb tex1\" [ 0 0 0 ] \"rgb tex2\" [ 1 1 1 ]{amount}")))
+    }
+
+    /// The parameters of a map of coordinates; turning and shearing are lost.
+    fn uv(&mut self, map: Affine2) -> String {
+        let (x, y) = (map.matrix2.x_axis, map.matrix2.y_axis);
+        if x.y != 0.0 || y.x != 0.0 {
+            self.note("turned and sheared texture coordinates are only scaled and shifted");
+        }
+        let scale = if x.y == 0.0 && y.x == 0.0 { Vec2::new(x.x, y.y) } else { Vec2::new(x.length(), y.length()) };
+        let all = [("uscale", scale.x, 1.0), ("vscale", scale.y, 1.0)];
+        let shift = [("udelta", map.translation.x, 0.0), ("vdelta", map.translation.y, 0.0)];
+        all.iter().chain(&shift).filter(|(_, v, default)| v != default).map(|(name, v, _)| float(name, *v)).collect()
+    }
+}
