@@ -1,7 +1,7 @@
 //! Other files that a scene names: includes, meshes, pictures.
 
 use crate::diagnostic::{Diagnostic, Error, SourceFile};
-use crate::image::{RgbImage32, read_image_bytes};
+use crate::image::{ImageFile, read_image_bytes};
 use crate::load::Target;
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -13,6 +13,8 @@ const MAX_LINK: u64 = 1024;
 pub(crate) struct Files {
     /// `None` if there are no other files.
     folder: Option<PathBuf>,
+    /// Looked into before that folder, the last one first.
+    others: Vec<PathBuf>,
     allow_outside: bool,
 }
 
@@ -20,12 +22,12 @@ impl Files {
     /// Names start at the folder of the file `main`.
     pub(crate) fn beside(main: &Path, allow_outside: bool) -> Self {
         let folder = main.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
-        Self { folder: Some(folder.to_owned()), allow_outside }
+        Self { folder: Some(folder.to_owned()), others: Vec::new(), allow_outside }
     }
 
     /// No file but the scene itself.
     pub(crate) fn none() -> Self {
-        Self { folder: None, allow_outside: false }
+        Self { folder: None, others: Vec::new(), allow_outside: false }
     }
 
     /// Reads a file, unpacked. Devices and pipes are none: a scene must not wait for them or fill the memory from them.
@@ -41,15 +43,26 @@ impl Files {
         }
     }
 
-    /// The path of a file that the file `naming` names: in one of the folders, or else beside the file that names it.
+    /// Looks into `folder` from now on, before all others. False if there is no such folder.
+    pub(crate) fn look_into(&mut self, folder: PathBuf) -> bool {
+        let is_there = self.folder.is_some() && folder.is_dir();
+        if is_there {
+            self.others.push(folder);
+        }
+        is_there
+    }
+
+    /// The path of a file that the file `naming` names: in one of the folders, or else beside the file that names it,
+    /// or else packed by gzip.
     pub(crate) fn find(&self, name: &str, naming: &str) -> PathBuf {
         let name = name.replace('\\', "/");
         let Some(folder) = &self.folder else { return PathBuf::from(name) };
         let beside = Path::new(naming).parent();
-        let all = [folder.as_path()].into_iter().chain(beside);
+        let all = self.others.iter().rev().chain([folder]).map(PathBuf::as_path).chain(beside);
         let found = all.map(|folder| folder.join(&name)).find(|path| path.exists());
         let path = folder.join(&name);
-        found.or_else(|| through_text_links(&path)).unwrap_or(path)
+        let packed = folder.join(format!("{name}.gz"));
+        found.or_else(|| packed.exists().then_some(packed)).or_else(|| through_text_links(&path)).unwrap_or(path)
     }
 
     /// Reads a file that another one includes.
@@ -71,11 +84,11 @@ impl Files {
     ///
     /// # Errors
     /// As [`Files::read`], or the file is no picture.
-    pub(crate) fn picture(&self, path: &Path, target: &mut Target) -> Result<RgbImage32, Error> {
+    pub(crate) fn picture(&self, path: &Path, target: &mut Target) -> Result<ImageFile, Error> {
         let bytes = self.read(path)?;
         let picture = read_image_bytes(&path.display().to_string(), &bytes)?;
         target.input(&bytes);
-        Ok(picture.image)
+        Ok(picture)
     }
 
     /// Whether there is nothing to read.

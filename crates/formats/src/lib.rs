@@ -7,6 +7,7 @@ mod files;
 pub mod image;
 mod lines;
 pub mod load;
+pub mod mitsuba;
 pub mod obj;
 mod packed;
 pub mod pbrt;

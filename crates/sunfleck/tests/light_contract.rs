@@ -40,6 +40,8 @@ fn lights() -> Vec<(&'static str, Light)> {
         ("point", PointLight { p: Vec3::new(0.5, -0.2, 1.0), intensity: Rgb::new(1.0, 2.0, 3.0).into() }.into()),
         ("spot, soft", spot([0.3, 0.8])),
         ("spot, steep", spot_with(Rim::Fourth, [0.3, 0.8])),
+        ("spot, even", spot_with(Rim::Even, [0.3, 0.8])),
+        ("spot, even and sharp", spot_with(Rim::Even, [0.5, 0.5])),
         ("spot, sharp", spot([0.5, 0.5])),
         ("spot, all rim", spot([0.0, 1.0])),
         ("spot, wide", spot([1.2, 2.6])),

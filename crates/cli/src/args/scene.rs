@@ -1,5 +1,5 @@
 //! Flags that change what a scene file says.
-use super::values::radiance;
+use super::values::{key_value, radiance};
 use crate::load::replacement;
 use clap::{Args, ValueEnum};
 use glam::Vec3;
@@ -33,6 +33,9 @@ pub(crate) struct SceneArgs {
     /// which it shines, irradiance), sky (radiance), ball (at, radius, radiance). May be repeated.
     #[arg(long = "add-light", value_name = "KIND", allow_hyphen_values = true)]
     pub(crate) lights: Vec<String>,
+    /// A value for a name that a Mitsuba scene leaves open as `$NAME`; counts before the scene's own default
+    #[arg(short = 'D', long = "define", value_name = "NAME=VALUE", value_parser = key_value)]
+    pub(crate) defines: Vec<(String, String)>,
     /// Let scene files include others from outside of their folder
     #[arg(long)]
     pub(crate) allow_outside: bool,

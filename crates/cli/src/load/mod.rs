@@ -70,7 +70,13 @@ pub(crate) fn open(
         comma: None,
     };
     let stage = stage && compat.is_none() && args.env.is_none() && args.ambient.is_none() && args.lights.is_empty();
-    let options = LoadOptions { scn, allow_outside: args.allow_outside, strict: args.strict, stage };
+    let options = LoadOptions {
+        scn,
+        allow_outside: args.allow_outside,
+        strict: args.strict,
+        defines: args.defines.clone(),
+        stage,
+    };
     let mut read = formats::load(&args.files, &options)?;
     let surroundings = surroundings(args)?;
     let lit = surroundings.is_some() || !args.lights.is_empty();

@@ -20,6 +20,9 @@ impl InputHash {
     /// The first 128 bits of the hash, as hexadecimal digits.
     pub(super) fn finish(mut self, options: &LoadOptions) -> String {
         let scn = &options.scn;
+        for part in options.defines.iter().flat_map(|(name, value)| [name, value]) {
+            self.add(part.as_bytes());
+        }
         self.0.update([u8::from(scn.compat), scn.sides() as u8, scn.comma() as u8]);
         self.0.finalize()[..16].iter().map(|b| format!("{b:02x}")).collect::<Vec<_>>().concat()
     }

@@ -30,6 +30,8 @@ pub struct LoadOptions {
     pub allow_outside: bool,
     /// Whether files that are missing are errors, not warnings.
     pub strict: bool,
+    /// Values for the names that a scene leaves open, as (name, value).
+    pub defines: Vec<(String, String)>,
     /// Whether a mesh that comes alone gets a floor, light and an eye.
     pub stage: bool,
 }
@@ -79,7 +81,7 @@ pub struct SceneFormat {
 
 /// All formats of scene files.
 pub const SCENE_FORMATS: &[SceneFormat] =
-    &[crate::scn::FORMAT, crate::obj::FORMAT, crate::ply::FORMAT, crate::pbrt::FORMAT];
+    &[crate::scn::FORMAT, crate::obj::FORMAT, crate::ply::FORMAT, crate::pbrt::FORMAT, crate::mitsuba::FORMAT];
 
 /// Reads one or several files into one scene.
 ///

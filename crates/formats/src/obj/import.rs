@@ -4,6 +4,7 @@ use super::appearance::Appearances;
 use super::{Corner, ObjFile, ObjMesh, parse, read_libraries};
 use crate::diagnostic::{Diagnostic, Error, Sink, SourceFile};
 use crate::load::{LoadOptions, SceneFormat, Target};
+use crate::ply::PlyMesh;
 use glam::{Vec2, Vec3};
 use std::collections::HashMap;
 use std::path::Path;
@@ -70,6 +71,27 @@ fn shape(tree: &ObjFile, mesh: &ObjMesh, source: &SourceFile, sink: &mut Sink) -
         });
     }
     vertices.into_shape()
+}
+
+/// All faces of a file as one mesh, whatever their materials.
+pub(crate) fn merged(tree: &ObjFile) -> PlyMesh {
+    let triangles = tree.meshes.iter().flat_map(|m| m.triangles.iter().copied()).collect();
+    let all = ObjMesh { object: String::new(), material: None, triangles };
+    let mut vertices = Vertices::new(tree, &all);
+    for triangle in &all.triangles {
+        let [a, b, c] = triangle.each_ref().map(|c| Vec3::from_array(tree.positions[c.position as usize]));
+        let normal = (b - a).cross(c - a);
+        let indices = triangle.map(|corner| vertices.index(corner, normal));
+        vertices.triangles.push(indices);
+    }
+    let Vertices { positions, normals, uvs, triangles, .. } = vertices;
+    PlyMesh {
+        positions: positions.iter().map(Vec3::to_array).collect(),
+        normals: normals.iter().map(Vec3::to_array).collect(),
+        uvs: uvs.iter().map(Vec2::to_array).collect(),
+        triangles,
+        bad_faces: 0,
+    }
 }
 
 /// Corners of a mesh, made unique.

@@ -16,7 +16,7 @@ mod tests;
 mod tree;
 mod triangulate;
 
-pub(crate) use import::FORMAT;
+pub(crate) use import::{FORMAT, merged};
 pub use libraries::read_libraries;
 pub use mtl::{MtlMaterial, parse_mtl};
 pub use parser::{MAX_CORNERS, parse};

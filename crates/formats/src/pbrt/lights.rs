@@ -110,8 +110,13 @@ impl Importer<'_> {
         let spot = SpotLight::new(p, direction, intensity * power, [hot as f32, out as f32]);
         let spot = spot.map_err(|e| params.bad("pbrt::value", &e.to_string()))?;
         // Our own writer says so where it is not that of the version.
-        let is_fourth = params.word("rim", "", &["fourth", "smooth"])? == "fourth";
-        let rim = if self.picture.is_version_3 || is_fourth { Rim::Fourth } else { Rim::Smooth };
+        let rim = params.word("rim", "", &["fourth", "smooth", "even"])?;
+        let rim = match rim {
+            "even" => Rim::Even,
+            "fourth" => Rim::Fourth,
+            _ if self.picture.is_version_3 => Rim::Fourth,
+            _ => Rim::Smooth,
+        };
         self.target.light(spot.with_rim(rim));
         Ok(())
     }

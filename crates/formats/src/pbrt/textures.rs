@@ -262,7 +262,7 @@ impl Importer<'_> {
         let at = params.get(name).map_or(&params.at, |p| &p.at).clone();
         let path = self.files.find(&file, at.source.name());
         match self.files.picture(&path, self.target) {
-            Ok(image) => Ok(Some((image, at))),
+            Ok(picture) => Ok(Some((picture.image, at))),
             Err(error) => {
                 let told =
                     Diagnostic { severity: crate::Severity::Warning, code: "pbrt::missing-picture", ..first_of(error) };

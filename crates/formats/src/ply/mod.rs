@@ -14,4 +14,4 @@ mod values;
 
 pub(crate) use import::{FORMAT, shape};
 pub use parser::{PlyMesh, parse};
-pub(crate) use place::place;
+pub(crate) use place::{drop_false_normals, place};

@@ -10,14 +10,7 @@ pub(crate) fn place(mesh: &mut PlyMesh, world: &DAffine3, reverse: bool, name: &
     let to_world = |p: &[f32; 3]| world.transform_point3(Vec3::from_array(*p).as_dvec3()).as_vec3().to_array();
     mesh.positions.iter_mut().for_each(|p| *p = to_world(p));
     turn_normals(&mut mesh.normals, world, reverse);
-    if lie_in_surface(mesh) {
-        sink.warn("mesh::normals", || {
-            let message = "the normals of most faces lie in them";
-            let warning = Diagnostic::warning("mesh::normals", message).in_file(name);
-            warning.help("the faces' own normals take their place")
-        });
-        mesh.normals.clear();
-    }
+    drop_false_normals(mesh, name, sink);
     let inside_out = (world.matrix3.determinant() < 0.0) != reverse;
     let PlyMesh { positions, normals, triangles, .. } = mesh;
     for t in triangles.iter_mut() {
@@ -26,6 +19,36 @@ pub(crate) fn place(mesh: &mut PlyMesh, world: &DAffine3, reverse: bool, name: &
             t.swap(1, 2);
         }
     }
+}
+
+/// Leaves out normals that cannot be meant, with a warning.
+pub(crate) fn drop_false_normals(mesh: &mut PlyMesh, name: &str, sink: &mut Sink) {
+    let message = if lie_in_surface(mesh) {
+        "the normals of most faces lie in them"
+    } else if are_one_and_the_same(mesh) {
+        "all normals are the same, but the faces are not"
+    } else {
+        return;
+    };
+    sink.warn("mesh::normals", || {
+        let warning = Diagnostic::warning("mesh::normals", message).in_file(name);
+        warning.help("the faces' own normals take their place")
+    });
+    mesh.normals.clear();
+}
+
+/// Whether there is one normal for all vertices though more than half of the faces are tilted against it: converters write such.
+fn are_one_and_the_same(mesh: &PlyMesh) -> bool {
+    let Some(first) = mesh.normals.first().copied().filter(|f| mesh.normals.iter().all(|n| n == f)) else {
+        return false;
+    };
+    let n = Vec3::from_array(first).normalize_or_zero();
+    let is_tilted = |t: &&[u32; 3]| {
+        let [a, b, c] = t.map(|i| Vec3::from_array(mesh.positions[i as usize]));
+        let ng = (b - a).cross(c - a).normalize_or_zero();
+        ng != Vec3::ZERO && ng.dot(n).abs() < 0.999
+    };
+    2 * mesh.triangles.iter().filter(is_tilted).count() > mesh.triangles.len()
 }
 
 /// Whether the normals of most faces are nearly at right angles to what the corners say: such files exist.

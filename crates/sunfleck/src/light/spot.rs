@@ -20,6 +20,8 @@ pub struct SpotLight {
     /// 1 − cos of `hot_spot` and of `fall_out`: exact for narrow beams too.
     hot: f32,
     out: f32,
+    /// Both in radians.
+    angles: [f32; 2],
     rim: Rim,
 }
 
@@ -31,31 +33,71 @@ pub enum Rim {
     Smooth,
     /// By `s⁴`, as in pbrt up to version 3.
     Fourth,
+    /// Linearly in the angle itself, as in Mitsuba.
+    Even,
 }
 
 impl Rim {
+    /// At `s`, between cones of the half-angles `[hot, out]`.
     #[inline]
-    fn falloff(self, s: f32) -> f32 {
+    fn falloff(self, s: f32, [hot, out]: [f32; 2]) -> f32 {
         match self {
             Self::Smooth => s * s * (3.0 - 2.0 * s),
             Self::Fourth => (s * s) * (s * s),
+            Self::Even => {
+                let v = versine(out) - s * (versine(out) - versine(hot));
+                ((out - angle(v)) / (out - hot)).clamp(0.0, 1.0)
+            }
         }
     }
     /// Integral of the falloff over s in [0, 1].
-    fn share(self) -> f32 {
+    fn share(self, [hot, out]: [f32; 2]) -> f32 {
         match self {
             Self::Smooth => 0.5,
             Self::Fourth => 0.2,
+            Self::Even if out > hot => {
+                let [hot, out] = [hot, out].map(f64::from);
+                (beyond(hot, out) / ((out - hot) * (hot.cos() - out.cos()))) as f32
+            }
+            Self::Even => 0.0,
         }
     }
     /// Draws s in proportion to the falloff.
     #[inline]
-    fn sample(self, u: f32) -> f32 {
+    fn sample(self, u: f32, [hot, out]: [f32; 2]) -> f32 {
         match self {
             Self::Smooth => sample_smoothstep(u),
             Self::Fourth => u.powf(0.2),
+            Self::Even => {
+                let [low, high] = [hot, out].map(f64::from);
+                let theta = sample_even(f64::from(u), low, high) as f32;
+                let (hot, out) = (versine(hot), versine(out));
+                ((out - versine(theta)) / (out - hot)).clamp(0.0, 1.0)
+            }
         }
     }
+}
+
+/// The angle whose versine is `v`.
+#[inline]
+fn angle(v: f32) -> f32 {
+    2.0 * (0.5 * v).max(0.0).sqrt().min(1.0).asin()
+}
+
+/// `∫ (out − θ) sin θ dθ` from `theta` to `out`.
+fn beyond(theta: f64, out: f64) -> f64 {
+    (out - theta) * theta.cos() - (out.sin() - theta.sin())
+}
+
+/// The angle beyond which lies the share `u` of `(out − θ) sin θ`, `hot ≤ θ ≤ out`; halving finds it.
+fn sample_even(u: f64, hot: f64, out: f64) -> f64 {
+    let (mut low, mut high) = (hot, out);
+    let wanted = u * beyond(hot, out);
+    for _ in 0..40 {
+        let middle = 0.5 * (low + high);
+        if beyond(middle, out) > wanted { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
 }
 
 /// Why numbers do not make a spot light.
@@ -106,6 +148,7 @@ impl SpotLight {
             intensity: intensity.into(),
             hot: versine(hot_spot),
             out: versine(fall_out),
+            angles: [hot_spot, fall_out],
             rim: Rim::Smooth,
         })
     }
@@ -144,20 +187,20 @@ impl SpotLight {
             return 0.0;
         }
         let s = (self.out - v) / (self.out - self.hot);
-        self.rim.falloff(s)
+        self.rim.falloff(s, self.angles)
     }
     /// Integral of [`SpotLight::falloff`] over directions (sr): the inner cone's solid angle and a share of the rim's.
     fn solid_angle(&self) -> f32 {
-        TAU * (self.hot + self.rim.share() * (self.out - self.hot))
+        TAU * (self.hot + self.rim.share(self.angles) * (self.out - self.hot))
     }
     /// `1 − cos` of the angle of a direction drawn in proportion to the falloff.
     #[inline]
     fn sample_versine(&self, u: f32) -> f32 {
-        let inner = self.hot / (self.hot + self.rim.share() * (self.out - self.hot));
+        let inner = self.hot / (self.hot + self.rim.share(self.angles) * (self.out - self.hot));
         if u < inner {
             self.hot * (u / inner)
         } else {
-            self.out - (self.out - self.hot) * self.rim.sample((u - inner) / (1.0 - inner))
+            self.out - (self.out - self.hot) * self.rim.sample((u - inner) / (1.0 - inner), self.angles)
         }
     }
 }

@@ -116,7 +116,11 @@ impl Writer<'_> {
 
 fn spot(l: &SpotLight) -> String {
     let [hot, out] = l.angles().map(f32::to_degrees);
-    let rim = if l.rim() == Rim::Fourth { ours(&string("rim", "fourth")) } else { String::new() };
+    let rim = match l.rim() {
+        Rim::Smooth => String::new(),
+        Rim::Fourth => ours(&string("rim", "fourth")),
+        Rim::Even => ours(&string("rim", "even")),
+    };
     let p = l.position();
     let cone = float("coneangle", out) + &float("conedeltaangle", out - hot);
     let line = format!(
