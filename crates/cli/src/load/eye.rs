@@ -14,6 +14,7 @@ use sunfleck::{
 /// A camera as plain numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub(crate) struct Eye {
+    /// The kind of camera, as `--camera` takes it.
     #[serde(serialize_with = "kind")]
     projection: Projection,
     position: [f32; 3],
@@ -33,18 +34,19 @@ pub(crate) struct Eye {
     shift: [f32; 2],
 }
 
-fn kind_name(projection: Projection) -> &'static str {
+/// As `--camera` takes it.
+fn kind_name(projection: Projection) -> String {
     match projection {
-        Projection::Perspective => "perspective",
-        Projection::Orthographic(_) => "orthographic",
-        Projection::Spherical(Unrolling::Equirectangular) => "spherical, by longitude and latitude",
-        Projection::Spherical(Unrolling::EqualArea) => "spherical, of equal areas",
+        Projection::Perspective => "perspective".to_owned(),
+        Projection::Orthographic(height) => format!("orthographic:{height}"),
+        Projection::Spherical(Unrolling::Equirectangular) => "spherical".to_owned(),
+        Projection::Spherical(Unrolling::EqualArea) => "spherical:equal-area".to_owned(),
     }
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "the signature that serde asks for")]
 fn kind<S: Serializer>(projection: &Projection, to: S) -> Result<S::Ok, S::Error> {
-    to.serialize_str(kind_name(*projection))
+    to.serialize_str(&kind_name(*projection))
 }
 
 impl Eye {
@@ -98,7 +100,7 @@ impl Eye {
         let kind = match self.projection {
             Projection::Perspective => format!("fov {fov}°, aspect {aspect}"),
             Projection::Orthographic(height) => format!("orthographic, {height} high, aspect {aspect}"),
-            Projection::Spherical(_) => kind_name(self.projection).to_owned(),
+            Projection::Spherical(_) => kind_name(self.projection),
         };
         let lens = if *aperture > 0.0 { format!(", aperture {aperture}, focus {focus}") } else { String::new() };
         format!("at {} looking at {}, {kind}{lens}", at(self.position), at(self.look_at))

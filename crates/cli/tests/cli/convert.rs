@@ -35,7 +35,7 @@ fn materials_are_replaced_by_name_and_lights_added() {
     assert_eq!((&materials[1]["name"], &materials[1]["model"]), (&"Glass".into(), &"dielectric".into()));
     assert_eq!((info["lights"].as_array().unwrap().len(), info["dispersive"].clone()), (3, true.into()));
     let seen = place.run("info ball.scn --json --camera orthographic:3").json().remove(0);
-    assert_eq!(seen["camera"]["projection"], "orthographic");
+    assert_eq!(seen["camera"]["projection"], "orthographic:3");
 }
 
 #[test]

@@ -122,7 +122,12 @@ impl Importer<'_> {
     }
 
     fn infinite(&mut self, params: &Params) -> Found<()> {
-        params.ignore(&["portal", "nsamples", "samples", "filename"]);
+        params.ignore(&["nsamples", "samples", "filename"]);
+        if let Some(portal) = params.get("portal") {
+            let at = portal.at.clone();
+            let message = "a portal is not used: light from outside finds its way without it";
+            self.warn_once("pbrt::portal", "", || at.tell(warning("pbrt::portal", message), "ignored"));
+        }
         let mut radiance = self.emitted(params, "L")?;
         let lux = params.maybe_number("illuminance")?.filter(|lux| *lux > 0.0);
         let name = ["latlong", "filename", "mapname"].into_iter().find(|n| params.get(n).is_some());

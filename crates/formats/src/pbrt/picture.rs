@@ -195,8 +195,9 @@ fn crop(params: &Params, size: [u32; 2]) -> Found<[[u32; 2]; 2]> {
     let part = match (pixels, share) {
         (Some(p), _) => [[p[0], p[1]], [p[2], p[3]]],
         (None, Some(c)) => {
-            let [x, y] = size.map(f64::from);
-            [[(c[0] * x).ceil(), (c[1] * x).ceil()], [(c[2] * y).ceil(), (c[3] * y).ceil()]]
+            // In the precision of pbrt, whose roundings decide which pixel is the first.
+            let pixel = |share: f64, axis: usize| f64::from((share as f32 * size[axis] as f32).ceil());
+            [[pixel(c[0], 0), pixel(c[1], 0)], [pixel(c[2], 1), pixel(c[3], 1)]]
         }
         (None, None) => return Ok(whole),
     };

@@ -92,6 +92,17 @@ fn paths_are_as_long_as_pbrts_when_the_file_says_nothing() {
 }
 
 #[test]
+fn a_crop_has_the_pixels_that_pbrts_precision_gives_it() {
+    // 0.3 · 1400 is a little more than 420 in single precision.
+    let text = format!(
+        "Film \"image\" \"integer xresolution\" 1400 \"integer yresolution\" 2000 \"float cropwindow\" [.3 .7 .4 .7]\n\
+         WorldBegin {LIGHT}"
+    );
+    let file = loaded(&text);
+    assert_eq!((file.defaults.width, file.defaults.height), (559, 600));
+}
+
+#[test]
 fn a_camera_moves_between_the_transformations_of_both_times() {
     let text = format!(
         // The camera looks along -z, with -x at its right.
