@@ -104,7 +104,10 @@ impl Stream<'_> {
         let corners = self.skip(faces.checked_mul(12)?)?;
         let all = corners.chunks_exact(12).map(|t| [0, 4, 8].map(|at| u32_at(t, at).unwrap_or(u32::MAX)));
         let (triangles, bad_faces) = valid(all, vertices);
-        Some((PlyMesh { positions, normals, uvs, triangles, bad_faces }, flags & FACE_NORMALS != 0))
+        Some((
+            PlyMesh { positions, normals, uvs, triangles, bad_faces, ..PlyMesh::default() },
+            flags & FACE_NORMALS != 0,
+        ))
     }
 
     /// The next bytes, if there are so many.

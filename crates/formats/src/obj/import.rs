@@ -91,6 +91,7 @@ pub(crate) fn merged(tree: &ObjFile) -> PlyMesh {
         uvs: uvs.iter().map(Vec2::to_array).collect(),
         triangles,
         bad_faces: 0,
+        ..PlyMesh::default()
     }
 }
 

@@ -259,5 +259,6 @@ fn triangle_mesh(params: &Params) -> Found<PlyMesh> {
         positions,
         triangles,
         bad_faces,
+        ..PlyMesh::default()
     })
 }

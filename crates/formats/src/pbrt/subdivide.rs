@@ -33,6 +33,7 @@ pub(super) fn mesh(params: &Params) -> Found<PlyMesh> {
         uvs: Vec::new(),
         triangles: surface.triangles,
         bad_faces,
+        ..PlyMesh::default()
     })
 }
 

@@ -7,11 +7,11 @@ use super::tokens::At;
 use crate::diagnostic::Diagnostic;
 use crate::files::first_of;
 use crate::image::{RgbImage32, srgb_from_linear};
-use glam::{Affine3A, DAffine3, DVec3, Vec2, Vec3};
+use glam::{Affine2, Affine3A, DAffine3, DVec3, Vec2, Vec3};
 use std::collections::HashMap;
 use sunfleck::bsdf::TextureId;
 use sunfleck::texture::{
-    Checkerboard, Dots, ImageTexture, Mapped, Mix, Noise, NoiseKind, Product, Texture, UvMap, UvSet, Wrap,
+    Checkerboard, Dots, ImageTexture, Mapped, Mix, Noise, NoiseKind, Product, Texture, UvMap, UvSet, VertexColour, Wrap,
 };
 
 const CLASSES: [&str; 14] = [
@@ -81,7 +81,9 @@ impl Importer<'_> {
                 let (a, b) = (self.operand(params, "tex1", Vec3::ONE)?, self.operand(params, "tex2", Vec3::ZERO)?);
                 params.ignore(&["dimension", "aamode"]);
                 let map = uv_map(params)?;
-                Ok(self.made(Texture::Checkerboard(Checkerboard { of: [a.id, b.id], map }), 0.5 * (a.mean + b.mean)))
+                let made =
+                    self.made(Texture::Checkerboard(Checkerboard { of: [a.id, b.id], map }), 0.5 * (a.mean + b.mean));
+                self.elsewhere(params, made)
             }
             "dots" => {
                 let inside = self.operand(params, "inside", Vec3::ONE)?;
@@ -93,6 +95,8 @@ impl Importer<'_> {
             }
             "bilerp" | "uv" => self.corners(class, params),
             "fbm" | "wrinkled" | "windy" | "marble" => self.noise(class, params),
+            "sunfleck-vertex-rgb" => Ok(self.made(Texture::Vertex(VertexColour::Rgb), Vec3::ONE)),
+            "sunfleck-vertex-alpha" => Ok(self.made(Texture::Vertex(VertexColour::Alpha), Vec3::ONE)),
             _ if CLASSES.contains(&class) => {
                 let message = format!("textures of the kind `{class}` are shown in grey");
                 self.warn_once("pbrt::texture", class, || params.at.tell(warning("pbrt::texture", message), ""));
@@ -100,6 +104,18 @@ impl Importer<'_> {
             }
             _ => Err(unknown(&params.at, "kind of texture", class, CLASSES)),
         }
+    }
+
+    /// At texture coordinates that only our own writer asks for: turned ones, or the second ones.
+    fn elsewhere(&mut self, params: &Params, made: Made) -> Found<Made> {
+        let matrix =
+            params.numbers("uvmatrix", 6)?.map(|m| Affine2::from_cols_array(&[0, 1, 2, 3, 4, 5].map(|i| m[i] as f32)));
+        let set = if params.integer("uvset", 1..=2)? == Some(2) { UvSet::Second } else { UvSet::First };
+        if matrix.is_none() && set == UvSet::First {
+            return Ok(made);
+        }
+        let map = matrix.unwrap_or(Affine2::IDENTITY);
+        Ok(self.made(Texture::Mapped(Mapped { of: made.id, map, set }), made.mean))
     }
 
     pub(super) fn constant(&mut self, colour: Vec3) -> Made {
@@ -248,10 +264,12 @@ impl Importer<'_> {
         let mean = texture.mean();
         let of = self.target.builder().texture(Texture::Image(texture));
         let map = uv_map(params)?;
-        if map == UvMap::default() {
-            return Ok(Made { id: of, mean });
+        let made = Made { id: of, mean };
+        if map != UvMap::default() && params.get("uvmatrix").is_none() {
+            let made = self.made(Texture::Mapped(Mapped { of, map: map.into(), set: UvSet::First }), mean);
+            return self.elsewhere(params, made);
         }
-        Ok(self.made(Texture::Mapped(Mapped { of, map: map.into(), set: UvSet::First }), mean))
+        self.elsewhere(params, made)
     }
 
     /// Reads a picture that a parameter names. `None` with a warning if that fails.

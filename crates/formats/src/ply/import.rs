@@ -57,5 +57,6 @@ pub(crate) fn shape(mesh: &PlyMesh, name: &str, sink: &mut Sink) -> Option<Shape
     let positions = mesh.positions.iter().map(|p| Vec3::from_array(*p)).collect();
     let normals = mesh.normals.iter().map(|n| Vec3::from_array(*n).normalize_or(Vec3::ZERO)).collect();
     let uvs = mesh.uvs.iter().map(|uv| Vec2::from_array(*uv)).collect();
-    Mesh::new(positions, normals, uvs, indices).ok().map(Shape::Mesh)
+    let made = Mesh::new(positions, normals, uvs, indices).and_then(|m| m.with_attributes(mesh.extra.clone()));
+    made.ok().map(Shape::Mesh)
 }

@@ -1,9 +1,11 @@
 //! The values, as far as a mesh needs them.
 
-use super::header::{self, Element, Encoding, Header, Property};
+use super::header::{self, Element, Encoding, Header, Property, Scalar};
 use super::values::{Trouble, Values};
 use crate::diagnostic::{Diagnostic, Sink, SourceFile, Span};
 use crate::obj::{Corner, Triangulator};
+use glam::{Vec2, Vec4};
+use sunfleck::shape::Attributes;
 
 /// What a `.ply` file holds of a mesh.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -14,6 +16,8 @@ pub struct PlyMesh {
     pub normals: Vec<[f32; 3]>,
     /// Texture coordinates; empty, or as many as positions.
     pub uvs: Vec<[f32; 2]>,
+    /// What else the vertices know; empty lists, or as long as that of positions.
+    pub extra: Attributes,
     /// Polygons cut into triangles; all indices are valid.
     pub triangles: Vec<[u32; 3]>,
     /// Faces left out because they refer to vertices that do not exist.
@@ -125,6 +129,14 @@ impl Body<'_> {
         let Some(position) = all(&["x", "y", "z"]) else { return Err(Stop { index: 0, why: Why::NoPositions }) };
         let normal = all(&["nx", "ny", "nz"]);
         let uv = UV_NAMES.iter().find_map(|names| all(names));
+        // Floats only: bytes under these names are meant to be looked at in a viewer.
+        let floats = |names: &[&str]| {
+            let columns = all(names)?;
+            columns.iter().all(|i| element.properties[*i].value == Scalar::F32).then_some(columns)
+        };
+        let uv2 = floats(&["u2", "v2"]);
+        let colour = floats(&["red", "green", "blue", "alpha"]);
+        let tangent = floats(&["tx", "ty", "tz", "tw"]);
         self.mesh.positions.reserve(room);
         self.mesh.normals.reserve(if normal.is_some() { room } else { 0 });
         self.mesh.uvs.reserve(if uv.is_some() { room } else { 0 });
@@ -141,6 +153,11 @@ impl Body<'_> {
             self.mesh.positions.push([0, 1, 2].map(|i| take(&position, i)));
             self.mesh.normals.extend(normal.as_ref().map(|n| [0, 1, 2].map(|i| take(n, i))));
             self.mesh.uvs.extend(uv.as_ref().map(|n| [0, 1].map(|i| take(n, i))));
+            let four = |columns: &Vec<usize>| Vec4::from_array([0, 1, 2, 3].map(|i| take(columns, i)));
+            let extra = &mut self.mesh.extra;
+            extra.uv2.extend(uv2.as_ref().map(|n| Vec2::new(take(n, 0), take(n, 1))));
+            extra.colours.extend(colour.as_ref().map(four));
+            extra.tangents.extend(tangent.as_ref().map(four));
             Ok(())
         })
     }

@@ -10,6 +10,11 @@ pub(crate) fn place(mesh: &mut PlyMesh, world: &DAffine3, reverse: bool, name: &
     let to_world = |p: &[f32; 3]| world.transform_point3(Vec3::from_array(*p).as_dvec3()).as_vec3().to_array();
     mesh.positions.iter_mut().for_each(|p| *p = to_world(p));
     turn_normals(&mut mesh.normals, world, reverse);
+    let side = if world.matrix3.determinant() < 0.0 { -1.0 } else { 1.0 };
+    for t in &mut mesh.extra.tangents {
+        let moved = (world.matrix3 * t.truncate().as_dvec3()).normalize_or_zero().as_vec3();
+        *t = moved.extend(side * t.w);
+    }
     drop_false_normals(mesh, name, sink);
     let inside_out = (world.matrix3.determinant() < 0.0) != reverse;
     let PlyMesh { positions, normals, triangles, .. } = mesh;

@@ -5,7 +5,7 @@ use accel::Hit;
 use glam::{Mat3A, Vec2, Vec3, Vec4};
 
 /// More about the vertices of a [`Mesh`]; each list is empty or as long as the positions.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Attributes {
     /// Second set of texture coordinates.
     pub uv2: Vec<Vec2>,

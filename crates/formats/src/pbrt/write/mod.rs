@@ -20,7 +20,6 @@ mod textures;
 use crate::Error;
 use crate::load::{CameraSettings, Hints, Loaded};
 use files::Files;
-use glam::Affine2;
 use std::collections::{BTreeSet, HashMap};
 use std::fmt::Write;
 use std::path::Path;
@@ -77,8 +76,8 @@ pub fn write(path: &Path, scene: &Written) -> Result<Report, Error> {
     Ok(Report { files: count, notes: notes.into_iter().collect() })
 }
 
-/// A texture as colours or as numbers, over texture coordinates turned by a matrix (its bits).
-type TextureKey = (TextureId, bool, [u32; 6]);
+/// A texture as colours or as numbers, and where it is looked up.
+type TextureKey = (TextureId, bool, ([u32; 6], bool));
 
 /// The text in the making.
 struct Writer<'s> {
@@ -127,10 +126,5 @@ impl<'s> Writer<'s> {
         let mut name = String::from("t");
         let _ = write!(name, "{}", self.textures.len());
         name
-    }
-
-    /// The bits of a matrix, to look things up by.
-    fn bits(map: &Affine2) -> [u32; 6] {
-        map.to_cols_array().map(f32::to_bits)
     }
 }

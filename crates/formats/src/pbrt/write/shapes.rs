@@ -93,14 +93,11 @@ impl Writer<'_> {
     }
 
     fn mesh(&mut self, mesh: &Mesh, alpha: &str) -> Result<(), Error> {
-        if mesh.attributes().is_some() {
-            self.note("second texture coordinates, colours and tangents of vertices are left out");
-        }
         let normals = outward(mesh);
-        let line = if mesh.indices().len() <= INLINE {
+        let line = if mesh.indices().len() <= INLINE && mesh.attributes().is_none() {
             inline(mesh.positions(), &normals, mesh.uvs(), mesh.indices())
         } else {
-            let bytes = ply::encode(mesh.positions(), &normals, mesh.uvs(), mesh.indices());
+            let bytes = ply::encode(mesh, &normals);
             format!("Shape \"plymesh\"{}", string("filename", &self.files.add("ply", &bytes)?))
         };
         self.line(&(line + alpha));

@@ -2,10 +2,16 @@
 
 use super::{Report, Written, write};
 use crate::load::{CameraSettings, LoadOptions, Loaded, Projection, load};
+use glam::{Affine2, Vec2, Vec3, Vec4};
 use std::path::{Path, PathBuf};
-use sunfleck::camera::{Project, Unrolling};
+use sunfleck::bsdf::{DiffuseMaterial, MaskMaterial, NormalMapMaterial, TwoSidedMaterial};
+use sunfleck::camera::{Project, Unrolling, View};
 use sunfleck::film::{FilmSpec, Filter, PassImage};
 use sunfleck::integrator::{Params, Pass, find};
+use sunfleck::light::{EnvironmentLight, PointLight};
+use sunfleck::scene::SceneBuilder;
+use sunfleck::shape::{Attributes, Mesh, Shape};
+use sunfleck::texture::{ImageTexture, Mapped, Mix, Texture, UvSet, VertexColour, Wrap};
 
 const SIDE: u32 = 32;
 const BLOCKS: u32 = 4;
@@ -58,6 +64,53 @@ fn round_trip(path: &Path) -> (Report, Loaded) {
         );
     }
     (report, kept)
+}
+
+/// A patch whose vertices know colours, tangents and second texture coordinates, and a picture that is turned on them.
+fn patch(builder: &mut SceneBuilder) {
+    let pixels = (0..16).map(|i| Vec3::new((i % 4) as f32 / 3.0, (i / 4) as f32 / 3.0, 0.2)).collect();
+    let image = builder.texture(Texture::Image(ImageTexture::new(4, 4, pixels, Wrap::Mirror).unwrap()));
+    let map = Affine2::from_scale_angle_translation(Vec2::new(3.0, 2.0), 0.4, Vec2::new(0.1, 0.2));
+    let turned = builder.texture(Texture::Mapped(Mapped { of: image, map, set: UvSet::Second }));
+    let first = builder.texture(Texture::Mapped(Mapped { of: image, map, set: UvSet::First }));
+    let [rgb, alpha] = [VertexColour::Rgb, VertexColour::Alpha].map(|v| builder.texture(Texture::Vertex(v)));
+    let mixed = builder.texture(Texture::Mix(Mix { from: rgb, to: turned, amount: alpha }));
+    let paint = builder.material(DiffuseMaterial { reflectance: mixed });
+    let holes = builder.material(MaskMaterial { of: paint, opacity: alpha.into() });
+    let bent = builder.material(NormalMapMaterial { of: paint, map: first, scale: 0.7 });
+    let bent = builder.material(TwoSidedMaterial { front: Some(bent), back: None });
+    let positions = |x: f32| [[x, 0.0], [x + 0.8, 0.0], [x + 0.8, 1.0], [x, 1.0]].map(|[x, y]| Vec3::new(x, y, 0.3));
+    let uv = vec![Vec2::ZERO, Vec2::X, Vec2::ONE, Vec2::Y];
+    let colours =
+        vec![Vec4::new(1.0, 0.0, 0.0, 1.0), Vec4::new(0.0, 1.0, 0.0, 0.3), Vec4::ONE, Vec4::new(0.2, 0.2, 1.0, 0.5)];
+    for (x, material) in [(-0.9, holes), (0.1, bent)] {
+        let uv2 = uv.iter().map(|p| Vec2::ONE - *p).collect();
+        let tangents = vec![Vec4::new(0.6, 0.8, 0.0, -1.0); 4];
+        let extra = Attributes { uv2, colours: colours.clone(), tangents };
+        let mesh = Mesh::new(positions(x).to_vec(), vec![], uv.clone(), vec![[0, 1, 2], [0, 2, 3]]).unwrap();
+        builder.add(Shape::Mesh(mesh.with_attributes(extra).unwrap()), material);
+    }
+}
+
+#[test]
+fn what_vertices_know_and_turned_coordinates_come_back_as_they_were() {
+    let mut first = loaded(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/cornell-glass.scn"));
+    let mut builder = SceneBuilder::new();
+    patch(&mut builder);
+    builder.light(EnvironmentLight::constant(Vec3::ONE));
+    builder.light(PointLight { p: Vec3::new(0.3, 0.5, 4.0), intensity: Vec3::splat(9.0).into() });
+    first.builder = builder;
+    let view = View { position: Vec3::new(0.0, 0.5, 3.0), look_at: Vec3::new(0.0, 0.5, 0.0), up: Vec3::Y };
+    first.camera = CameraSettings { view, aspect: Some(1.0), ..CameraSettings::default() };
+    let folder = tempfile::tempdir().unwrap();
+    let to = folder.path().join("a.pbrt");
+    let report = write(&to, &Written::from(&first)).unwrap();
+    assert!(report.notes.is_empty(), "{:?}", report.notes);
+    let (first, second) = (blocks(first), blocks(loaded(&to)));
+    assert!(first.iter().all(|b| *b > 0.0));
+    for (i, (a, b)) in first.iter().zip(&second).enumerate() {
+        assert!((a - b).abs() <= 1e-3 * a, "block {i}: {a} became {b}\n{first:?}\n{second:?}");
+    }
 }
 
 fn from_text(text: &str) -> (Report, Loaded) {
@@ -116,11 +169,8 @@ fn materials_textures_and_lights_come_back_as_they_were() {
 #[test]
 fn every_camera_comes_back_as_it_was() {
     let mut first = loaded(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenes/cornell-glass.scn"));
-    let view = sunfleck::camera::View {
-        position: glam::Vec3::new(1.0, 2.0, 3.0),
-        look_at: glam::Vec3::new(0.5, 1.0, -2.0),
-        up: glam::Vec3::new(0.1, 1.0, 0.2),
-    };
+    let view =
+        View { position: Vec3::new(1.0, 2.0, 3.0), look_at: Vec3::new(0.5, 1.0, -2.0), up: Vec3::new(0.1, 1.0, 0.2) };
     let plain = CameraSettings { view, aspect: Some(1.6), focus_distance: 2.0, ..CameraSettings::default() };
     for projection in [
         Projection::Perspective,
@@ -136,7 +186,7 @@ fn every_camera_comes_back_as_it_was() {
             let second = loaded(&to).camera;
             let open = |c: &CameraSettings| c.build(c.aspect.unwrap()).unwrap();
             for (x, y) in [(0.1, 0.2), (0.5, 0.5), (0.9, 0.3), (0.4, 0.8)] {
-                let ray = |c| open(c).ray(glam::Vec2::new(x, y), glam::Vec2::new(0.7, 0.2)).ray;
+                let ray = |c| open(c).ray(Vec2::new(x, y), Vec2::new(0.7, 0.2)).ray;
                 let (a, b) = (ray(&first.camera), ray(&second));
                 assert!(
                     (a.o - b.o).length() < 1e-4 && (a.d - b.d).length() < 1e-4,
