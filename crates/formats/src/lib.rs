@@ -4,6 +4,7 @@
 pub mod compare;
 pub mod diagnostic;
 mod files;
+pub mod gltf;
 pub mod image;
 mod lines;
 pub mod load;

@@ -91,7 +91,8 @@ fn odd_meshes_give_a_scene_or_a_clear_error() {
         match load_one(&path, false) {
             Ok(loaded) => {
                 print(&path, &loaded.warnings);
-                assert!(loaded.surfaces > 0);
+                // A glTF file may be empty.
+                assert!(loaded.surfaces > 0 || !has_extension(&path, &["obj", "ply"]));
                 loaded.builder.build().unwrap();
             }
             Err(error) => {

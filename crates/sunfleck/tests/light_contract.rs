@@ -42,6 +42,7 @@ fn lights() -> Vec<(&'static str, Light)> {
         ("spot, steep", spot_with(Rim::Fourth, [0.3, 0.8])),
         ("spot, even", spot_with(Rim::Even, [0.3, 0.8])),
         ("spot, even and sharp", spot_with(Rim::Even, [0.5, 0.5])),
+        ("spot, as in glTF", spot_with(Rim::Square, [0.0, 0.8])),
         ("spot, sharp", spot([0.5, 0.5])),
         ("spot, all rim", spot([0.0, 1.0])),
         ("spot, wide", spot([1.2, 2.6])),

@@ -39,7 +39,7 @@ pub(crate) struct SceneArgs {
     /// Let scene files include others from outside of their folder
     #[arg(long)]
     pub(crate) allow_outside: bool,
-    /// Fail where textures, meshes or other files are missing, instead of showing something in their place
+    /// Fail where files are missing, and where a file breaks the rules of its format, even if no picture depends on it
     #[arg(long)]
     pub(crate) strict: bool,
     /// Which sides of an area light emit; the outer side is that of U × V [default: one, `two` with --compat nrenderer]

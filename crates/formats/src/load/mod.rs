@@ -28,11 +28,11 @@ pub struct LoadOptions {
     pub scn: ScnOptions,
     /// Whether a file may include others from outside of its folder.
     pub allow_outside: bool,
-    /// Whether files that are missing are errors, not warnings.
+    /// Whether missing files, and what breaks the rules of a format, are errors even where a picture can be made.
     pub strict: bool,
     /// Values for the names that a scene leaves open, as (name, value).
     pub defines: Vec<(String, String)>,
-    /// Whether a mesh that comes alone gets a floor, light and an eye.
+    /// Whether a mesh that comes without light or an eye gets them, and a floor if it has neither.
     pub stage: bool,
 }
 
@@ -80,8 +80,14 @@ pub struct SceneFormat {
 }
 
 /// All formats of scene files.
-pub const SCENE_FORMATS: &[SceneFormat] =
-    &[crate::scn::FORMAT, crate::obj::FORMAT, crate::ply::FORMAT, crate::pbrt::FORMAT, crate::mitsuba::FORMAT];
+pub const SCENE_FORMATS: &[SceneFormat] = &[
+    crate::scn::FORMAT,
+    crate::obj::FORMAT,
+    crate::ply::FORMAT,
+    crate::pbrt::FORMAT,
+    crate::mitsuba::FORMAT,
+    crate::gltf::FORMAT,
+];
 
 /// Reads one or several files into one scene.
 ///
@@ -116,7 +122,7 @@ pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
         return Err(Error { warnings: target.warnings, ..error });
     }
     let things_only = paths.iter().all(|path| format_of(path).is_ok_and(|f| f.is_mesh));
-    if options.stage && things_only && target.lights == 0 && target.camera.is_none() {
+    if options.stage && things_only {
         stage::set(&mut target);
     }
     warn_of_darkness(&mut target);

@@ -1,4 +1,5 @@
-//! A place for things that come alone: a mesh without lights or a camera is put on a floor, under a sky, before an eye.
+//! A place for things that come alone: a mesh without lights is put under a sky, one without a camera before an eye, and one
+//! with neither on a floor, too.
 
 use super::{CameraSettings, Target};
 use crate::diagnostic::Diagnostic;
@@ -18,9 +19,36 @@ const FLOOR: f32 = 60.0;
 /// Where the sun's light goes.
 const SUN: Vec3 = Vec3::new(0.55, -1.0, -0.35);
 
-/// Adds floor, sky, sun and eye around what is there.
+/// Adds what is missing around what is there: an eye; sky and sun; and a floor, if there was neither.
 pub(super) fn set(target: &mut Target) {
+    let (is_lit, is_seen) = (target.lights > target.glowing, target.camera.is_some());
     let Some((low, high)) = target.bounds() else { return };
+    let what = match (is_lit, is_seen) {
+        (true, true) => return,
+        (true, false) => "the file has no camera: one that fits is added",
+        (false, true) => "the file has no light: a sky and a sun are added",
+        (false, false) => "the file has a mesh and nothing else: a floor, a sky and an eye are added",
+    };
+    if !is_lit && !is_seen {
+        floor(target, low, high);
+    }
+    if !is_lit {
+        if let Some(sun) = DirectionalLight::new(SUN, Vec3::new(2.2, 2.0, 1.7)) {
+            target.light(sun);
+        }
+        if let Some(sky) = sky() {
+            target.light(sky);
+        }
+    }
+    if !is_seen {
+        target.camera = Some(eye(low, high));
+    }
+    let note = Diagnostic::warning("load::alone", what);
+    let help = "--env or --ambient light it otherwise, and then nothing is added";
+    target.warnings.push(if is_lit { note } else { note.help(help) });
+}
+
+fn floor(target: &mut Target, low: Vec3, high: Vec3) {
     let (centre, size) = (0.5 * (low + high), (high - low).length());
     let side = FLOOR * size;
     // A little below, so that flat things do not share its plane.
@@ -28,19 +56,13 @@ pub(super) fn set(target: &mut Target) {
     let reflectance = target.builder().constant(Vec3::splat(0.5));
     let matt = target.builder().material(DiffuseMaterial { reflectance });
     target.surface(Shape::Parallelogram(Parallelogram::new(corner, side * Vec3::Z, side * Vec3::X)), matt, None);
-    if let Some(sun) = DirectionalLight::new(SUN, Vec3::new(2.2, 2.0, 1.7)) {
-        target.light(sun);
-    }
-    if let Some(sky) = sky() {
-        target.light(sky);
-    }
+}
+
+fn eye(low: Vec3, high: Vec3) -> CameraSettings {
+    let (centre, size) = (0.5 * (low + high), (high - low).length());
     let distance = 0.55 * size / (0.5 * FOV).to_radians().sin();
-    let position = centre + distance * TO_EYE.normalize();
-    let view = View { position, look_at: centre, up: Vec3::Y };
-    target.camera = Some(CameraSettings { view, fov: FOV, focus_distance: distance, ..CameraSettings::default() });
-    let note =
-        Diagnostic::warning("load::alone", "the file has a mesh and nothing else: a floor, a sky and an eye are added");
-    target.warnings.push(note.help("--env or --ambient light it otherwise, and then nothing is added"));
+    let view = View { position: centre + distance * TO_EYE.normalize(), look_at: centre, up: Vec3::Y };
+    CameraSettings { view, fov: FOV, focus_distance: distance, ..CameraSettings::default() }
 }
 
 /// Blue above, white at the horizon, dim below.

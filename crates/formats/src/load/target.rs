@@ -26,6 +26,8 @@ pub struct Target {
     pub(super) hash: InputHash,
     pub(super) surfaces: usize,
     pub(super) lights: usize,
+    /// How many of the lights are surfaces that glow rather than light the scene.
+    pub(crate) glowing: usize,
 }
 
 impl Target {
@@ -42,6 +44,7 @@ impl Target {
             hash: InputHash::new(),
             surfaces: 0,
             lights: 0,
+            glowing: 0,
         }
     }
 
@@ -74,26 +77,43 @@ impl Target {
         self.builder.surface(SurfaceDef { shape, material, emission });
     }
 
-    fn extend_bounds(&mut self, shape: &Shape) {
-        let mut add = |p: Vec3| {
-            if p.is_finite() {
-                let (low, high) = self.bounds.get_or_insert((p, p));
-                (*low, *high) = (low.min(p), high.max(p));
-            }
-        };
-        match shape {
-            Shape::Mesh(mesh) => {
-                let used = mesh.indices().iter().flatten();
-                used.for_each(|i| add(mesh.positions()[*i as usize]));
-            }
-            Shape::Sphere(sphere) => [-1.0, 1.0].into_iter().for_each(|s| add(sphere.centre + s * sphere.radius)),
-            Shape::Parallelogram(patch) => patch.corners().into_iter().for_each(add),
+    /// Notes where the surfaces of an object will be.
+    pub(crate) fn bound_object(&mut self, surfaces: &[SurfaceDef], places: &[Affine3A]) {
+        let mut low = Vec3::INFINITY;
+        let mut high = Vec3::NEG_INFINITY;
+        for surface in surfaces {
+            each_point(&surface.shape, |p| (low, high) = (low.min(p), high.max(p)));
         }
+        if !(low.is_finite() && high.is_finite()) {
+            return;
+        }
+        for place in places {
+            for i in 0..8 {
+                let corner = Vec3::new([low.x, high.x][i & 1], [low.y, high.y][i >> 1 & 1], [low.z, high.z][i >> 2]);
+                self.include(place.transform_point3(corner));
+            }
+        }
+    }
+
+    fn include(&mut self, p: Vec3) {
+        if p.is_finite() {
+            let (low, high) = self.bounds.get_or_insert((p, p));
+            (*low, *high) = (low.min(p), high.max(p));
+        }
+    }
+
+    fn extend_bounds(&mut self, shape: &Shape) {
+        each_point(shape, |p| self.include(p));
     }
 
     /// The lowest and the highest coordinates of all surfaces that are no objects.
     pub(super) fn bounds(&self) -> Option<(Vec3, Vec3)> {
         self.bounds
+    }
+
+    /// How many lights there are, emitting surfaces included.
+    pub(crate) fn lights(&self) -> usize {
+        self.lights
     }
 
     /// Adds an object, to be placed.
@@ -117,5 +137,14 @@ impl Target {
     pub(crate) fn light(&mut self, light: impl Into<Light>) {
         self.lights += 1;
         self.builder.light(light);
+    }
+}
+
+/// Points whose bounds are those of a shape.
+fn each_point(shape: &Shape, mut add: impl FnMut(Vec3)) {
+    match shape {
+        Shape::Mesh(mesh) => mesh.indices().iter().flatten().for_each(|i| add(mesh.positions()[*i as usize])),
+        Shape::Sphere(sphere) => [-1.0, 1.0].into_iter().for_each(|s| add(sphere.centre + s * sphere.radius)),
+        Shape::Parallelogram(patch) => patch.corners().into_iter().for_each(add),
     }
 }

@@ -110,9 +110,10 @@ impl Importer<'_> {
         let spot = SpotLight::new(p, direction, intensity * power, [hot as f32, out as f32]);
         let spot = spot.map_err(|e| params.bad("pbrt::value", &e.to_string()))?;
         // Our own writer says so where it is not that of the version.
-        let rim = params.word("rim", "", &["fourth", "smooth", "even"])?;
+        let rim = params.word("rim", "", &["fourth", "smooth", "even", "square"])?;
         let rim = match rim {
             "even" => Rim::Even,
+            "square" => Rim::Square,
             "fourth" => Rim::Fourth,
             _ if self.picture.is_version_3 => Rim::Fourth,
             _ => Rim::Smooth,

@@ -31,6 +31,8 @@ pub enum Rim {
     /// By `s²(3 − 2s)`.
     #[default]
     Smooth,
+    /// By `s²`, as glTF advises.
+    Square,
     /// By `s⁴`, as in pbrt up to version 3.
     Fourth,
     /// Linearly in the angle itself, as in Mitsuba.
@@ -43,6 +45,7 @@ impl Rim {
     fn falloff(self, s: f32, [hot, out]: [f32; 2]) -> f32 {
         match self {
             Self::Smooth => s * s * (3.0 - 2.0 * s),
+            Self::Square => s * s,
             Self::Fourth => (s * s) * (s * s),
             Self::Even => {
                 let v = versine(out) - s * (versine(out) - versine(hot));
@@ -54,6 +57,7 @@ impl Rim {
     fn share(self, [hot, out]: [f32; 2]) -> f32 {
         match self {
             Self::Smooth => 0.5,
+            Self::Square => 1.0 / 3.0,
             Self::Fourth => 0.2,
             Self::Even if out > hot => {
                 let [hot, out] = [hot, out].map(f64::from);
@@ -67,6 +71,7 @@ impl Rim {
     fn sample(self, u: f32, [hot, out]: [f32; 2]) -> f32 {
         match self {
             Self::Smooth => sample_smoothstep(u),
+            Self::Square => u.cbrt(),
             Self::Fourth => u.powf(0.2),
             Self::Even => {
                 let [low, high] = [hot, out].map(f64::from);

@@ -118,6 +118,7 @@ fn spot(l: &SpotLight) -> String {
     let [hot, out] = l.angles().map(f32::to_degrees);
     let rim = match l.rim() {
         Rim::Smooth => String::new(),
+        Rim::Square => ours(&string("rim", "square")),
         Rim::Fourth => ours(&string("rim", "fourth")),
         Rim::Even => ours(&string("rim", "even")),
     };

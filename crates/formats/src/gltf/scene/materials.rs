@@ -1,0 +1,223 @@
+//! How surfaces look: from materials of the file to the models of the renderer.
+
+use super::super::document::Fields;
+use super::Importer;
+use super::emission::Glow;
+use super::geometry::Geometry;
+use super::textures::{Picture, Role};
+use glam::{Vec3, Vec4};
+use serde_json::Value;
+use std::collections::HashMap;
+use sunfleck::bsdf::{
+    CookTorranceMaterial, DielectricMaterial, MaskMaterial, Material, MixMaterial, NormalMapMaterial,
+    RoughDielectricMaterial, ThinDielectricMaterial,
+};
+use sunfleck::light::Sides;
+use sunfleck::scene::{MaterialId, SurfaceDef, TextureId};
+use sunfleck::spectrum::Ior;
+use sunfleck::texture::{Channel, Product, Scalar, Texture, Threshold, VertexColour};
+
+/// Materials that were made already, by index and whether the vertices have colours.
+#[derive(Default)]
+pub(super) struct Materials(HashMap<(Option<usize>, bool), MaterialId>);
+
+/// Index of refraction, if nothing is said.
+const IOR: f32 = 1.5;
+
+/// A colour over a surface, and what there is of opacity.
+struct Base {
+    colour: TextureId,
+    /// Opacity, but for `factor`.
+    alpha: Option<TextureId>,
+    factor: f32,
+}
+
+impl Importer<'_> {
+    /// Adds a mesh with its material, and the light that it emits.
+    pub(super) fn dress(&mut self, geometry: Geometry, material: Option<usize>, surfaces: &mut Vec<SurfaceDef>) {
+        let id = self.material(material, !geometry.colours.is_empty());
+        let json = material.and_then(|i| self.root.items("materials").get(i)).unwrap_or(&Value::Null);
+        let (emission, sides) = (emission(json), if json.flag("doubleSided") { Sides::Two } else { Sides::One });
+        let glow = if emission == Vec3::ZERO { None } else { self.colours(json.field("emissiveTexture")) };
+        let pieces = match &glow {
+            Some((picture, map, set)) => Glow { picture, map: *map, set: *set }.pieces(geometry),
+            None => vec![(Vec3::ONE, geometry)],
+        };
+        for (filter, piece) in pieces {
+            let radiance = emission * filter;
+            let emission = (radiance != Vec3::ZERO).then(|| (radiance.into(), sides));
+            let shape = piece.into_shape();
+            surfaces.extend(shape.map(|shape| SurfaceDef { shape, material: id, emission }));
+        }
+    }
+
+    fn material(&mut self, index: Option<usize>, has_colours: bool) -> MaterialId {
+        if let Some(id) = self.materials.0.get(&(index, has_colours)) {
+            return *id;
+        }
+        let json = index.and_then(|i| self.root.items("materials").get(i)).unwrap_or(&Value::Null);
+        let base = self.base(json, has_colours);
+        let name = index.map_or_else(|| "materials".to_owned(), |i| self.called("materials", i));
+        let model = self.model(json, base.colour, &name);
+        let bare = self.target.builder().material(model);
+        let id = self.relief(json, bare);
+        let id = self.holes(json, &base, id);
+        if let Some(name) = json.text("name") {
+            self.target.name_material(name, id);
+        }
+        self.materials.0.insert((index, has_colours), id);
+        id
+    }
+
+    /// The base colour: factor, picture and vertex colours, multiplied.
+    fn base(&mut self, json: &Value, has_colours: bool) -> Base {
+        let old = json.extension("KHR_materials_pbrSpecularGlossiness");
+        let pbr = old.unwrap_or(json.field("pbrMetallicRoughness"));
+        let [factor, picture] =
+            if old.is_some() { ["diffuseFactor", "diffuseTexture"] } else { ["baseColorFactor", "baseColorTexture"] };
+        let factor = Vec4::from_array(pbr.numbers(factor, [1.0; 4])).clamp(Vec4::ZERO, Vec4::ONE);
+        let picture = self.texture(pbr.field(picture), Role::Colour);
+        let mut colour = self.tinted(picture, factor.truncate());
+        let mut alpha = picture.and_then(|p| p.alpha);
+        if has_colours {
+            let [rgb, opacity] = [VertexColour::Rgb, VertexColour::Alpha].map(Texture::Vertex);
+            let (rgb, opacity) = (self.target.builder().texture(rgb), self.target.builder().texture(opacity));
+            colour = self.product(colour, rgb);
+            alpha = Some(alpha.map_or(opacity, |a| self.product(a, opacity)));
+        }
+        Base { colour, alpha, factor: factor.w }
+    }
+
+    fn product(&mut self, a: TextureId, b: TextureId) -> TextureId {
+        self.target.builder().texture(Texture::Product(Product { of: [a, b] }))
+    }
+
+    /// A picture times a colour, or the colour alone.
+    fn tinted(&mut self, picture: Option<Picture>, factor: Vec3) -> TextureId {
+        match picture {
+            Some(picture) if factor == Vec3::ONE => picture.id,
+            Some(picture) => {
+                let factor = self.target.builder().constant(factor);
+                self.product(picture.id, factor)
+            }
+            None => self.target.builder().constant(factor),
+        }
+    }
+
+    /// A factor times one channel of a picture, and its mean.
+    fn channel(&mut self, info: &Value, channel: u8, factor: f32) -> (Scalar, f32) {
+        let Some(picture) = self.texture(info, Role::Data) else { return (factor.into(), factor) };
+        let mean = factor * picture.mean[usize::from(channel)];
+        let mut id = self.target.builder().texture(Texture::Channel(Channel { of: picture.id, channel }));
+        if factor != 1.0 {
+            let factor = self.target.builder().constant(Vec3::splat(factor));
+            id = self.product(id, factor);
+        }
+        (id.into(), mean)
+    }
+
+    fn model(&mut self, json: &Value, colour: TextureId, name: &str) -> Material {
+        if json.extension("KHR_materials_unlit").is_some() {
+            self.note("gltf::unlit", name, "an unlit material is lit here, as a matt one");
+        }
+        if let Some(old) = json.extension("KHR_materials_pbrSpecularGlossiness") {
+            let picture = self.texture(old.field("specularGlossinessTexture"), Role::Colour);
+            let f0 = self.tinted(picture, Vec3::from_array(old.numbers("specularFactor", [1.0; 3])));
+            let roughness = 1.0 - old.number("glossinessFactor", 1.0).clamp(0.0, 1.0);
+            return CookTorranceMaterial { albedo: colour, f0, roughness, metallic: 0.0 }.into();
+        }
+        let pbr = json.field("pbrMetallicRoughness");
+        let unit = |key: &str| pbr.number(key, 1.0).clamp(0.0, 1.0);
+        let packed = pbr.field("metallicRoughnessTexture");
+        let (_, roughness) = self.channel(packed, 1, unit("roughnessFactor"));
+        let (_, metallic) = self.channel(packed, 2, unit("metallicFactor"));
+        let eta = ior(json);
+        let f0 = self.target.builder().constant(Vec3::splat(((eta - 1.0) / (eta + 1.0)).powi(2)));
+        let opaque = CookTorranceMaterial { albedo: colour, f0, roughness, metallic };
+        let Some(clear) = json.extension("KHR_materials_transmission") else { return opaque.into() };
+        let factor = clear.number("transmissionFactor", 0.0).clamp(0.0, 1.0) * (1.0 - metallic);
+        let (amount, _) = self.channel(clear.field("transmissionTexture"), 0, factor);
+        if amount == Scalar::Constant(0.0) {
+            return opaque.into();
+        }
+        let glass = self.glass(json, colour, roughness);
+        if amount == Scalar::Constant(1.0) {
+            return glass;
+        }
+        let of = [self.target.builder().material(opaque), self.target.builder().material(glass)];
+        MixMaterial { of, amount }.into()
+    }
+
+    /// What lets light through: with a thickness the boundary of a body, without one a pane.
+    fn glass(&mut self, json: &Value, tint: TextureId, roughness: f32) -> Material {
+        let white = self.target.builder().constant(Vec3::ONE);
+        let volume = json.extension("KHR_materials_volume");
+        if volume.is_none_or(|v| v.number("thicknessFactor", 0.0) <= 0.0) && roughness < 0.3 {
+            return ThinDielectricMaterial { eta: ior(json).into(), reflectance: white, transmittance: tint }.into();
+        }
+        let eta = dispersive(ior(json), json);
+        let glass = DielectricMaterial { eta, reflectance: white, transmittance: tint };
+        RoughDielectricMaterial { glass, alpha: (roughness * roughness).into() }.into()
+    }
+
+    fn relief(&mut self, json: &Value, of: MaterialId) -> MaterialId {
+        let info = json.field("normalTexture");
+        let Some(picture) = self.texture(info, Role::Data) else { return of };
+        let scale = info.number("scale", 1.0);
+        self.target.builder().material(NormalMapMaterial { of, map: picture.id, scale })
+    }
+
+    /// Opacity (glTF 2.0, section 3.9.5).
+    fn holes(&mut self, json: &Value, base: &Base, of: MaterialId) -> MaterialId {
+        let opacity: Scalar = match (json.text("alphaMode"), base.alpha) {
+            (Some("MASK"), alpha) => {
+                let cutoff = json.number("alphaCutoff", 0.5);
+                match alpha {
+                    None => f32::from(base.factor >= cutoff).into(),
+                    Some(_) if base.factor <= 0.0 => f32::from(cutoff <= 0.0).into(),
+                    Some(of) => {
+                        let stencil = Threshold { of, cutoff: cutoff / base.factor };
+                        self.target.builder().texture(Texture::Threshold(stencil)).into()
+                    }
+                }
+            }
+            (Some("BLEND"), None) => base.factor.into(),
+            (Some("BLEND"), Some(alpha)) => {
+                let factor = self.target.builder().constant(Vec3::splat(base.factor));
+                self.product(alpha, factor).into()
+            }
+            _ => return of,
+        };
+        if opacity == Scalar::Constant(1.0) {
+            return of;
+        }
+        self.target.builder().material(MaskMaterial { of, opacity })
+    }
+}
+
+/// The index of refraction; 0 stands for no refraction at all, which is what a very high one reflects.
+fn ior(json: &Value) -> f32 {
+    match json.extension("KHR_materials_ior").map_or(IOR, |e| e.number("ior", IOR)) {
+        n if n < 1.0 => 1e3,
+        n => n,
+    }
+}
+
+/// Cauchy's formula with the Abbe number that `KHR_materials_dispersion` gives as 20/V.
+fn dispersive(eta: f32, json: &Value) -> Ior {
+    /// Lines d, F and C, in µm.
+    const LINES: [f32; 3] = [0.5876, 0.4861, 0.6563];
+    let dispersion = json.extension("KHR_materials_dispersion").map_or(0.0, |e| e.number("dispersion", 0.0));
+    if dispersion <= 0.0 {
+        return eta.into();
+    }
+    let [d, f, c] = LINES.map(|l| 1.0 / (l * l));
+    let b = (eta - 1.0) * dispersion / 20.0 / (f - c);
+    Ior::Cauchy([eta - b * d, b, 0.0])
+}
+
+/// Radiance that a material emits, but for its texture.
+fn emission(json: &Value) -> Vec3 {
+    let strength = json.extension("KHR_materials_emissive_strength").map_or(1.0, |e| e.number("emissiveStrength", 1.0));
+    Vec3::from_array(json.numbers("emissiveFactor", [0.0; 3])).max(Vec3::ZERO) * strength.max(0.0)
+}
