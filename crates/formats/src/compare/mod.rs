@@ -7,10 +7,12 @@ mod heat;
 mod mask;
 #[cfg(test)]
 mod tests;
+mod z_test;
 
 pub use blocks::{Block, BlockGrid, Channel};
 pub use heat::{HeatMap, heat_map};
 pub use mask::bright_mask;
+pub use z_test::{Noisy, ZTest, z_test};
 
 use crate::image::RgbImage32;
 

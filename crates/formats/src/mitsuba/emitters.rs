@@ -7,8 +7,10 @@ use super::sky;
 use crate::diagnostic::Diagnostic;
 use crate::files::first_of;
 use crate::image::RgbImage32;
-use glam::{DAffine3, DMat3, DVec3, Mat3, Vec3};
-use sunfleck::light::{DirectionalLight, EnvironmentLight, PointLight, Rim, SpotLight};
+use glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
+use std::f32::consts::PI;
+use sunfleck::light::{DirectionalLight, EnvironmentLight, PointLight, ProjectionLight, Rim, SpotLight};
+use sunfleck::spectrum::Illuminant;
 use sunfleck::texture::{ImageTexture, Wrap};
 
 const EMITTERS: [&str; 14] = [
@@ -32,6 +34,9 @@ const EMITTERS: [&str; 14] = [
 const ENVMAP_FROM_MAP: Mat3 = Mat3::from_cols(Vec3::Z, Vec3::Y, Vec3::NEG_X);
 /// The same for a sky whose zenith is z.
 const SKY_FROM_MAP: Mat3 = Mat3::from_cols(Vec3::X, Vec3::Z, Vec3::NEG_Y);
+
+/// Sides of a projected picture at least, in pixels.
+const LEAST_PROJECTED: u32 = 256;
 
 impl Importer<'_, '_> {
     /// Adds a light that stands in the scene.
@@ -73,29 +78,97 @@ impl Importer<'_, '_> {
     }
 
     fn spot(&mut self, props: &Props, world: &DAffine3) -> Found<()> {
-        let mut intensity = self.light_of(props, "intensity", 1.0)?;
-        if props.has("texture") {
-            let texture = self.light_of(props, "texture", 1.0)?;
-            intensity = (intensity.rgb() * texture.rgb()).into();
-        }
+        let intensity = self.light_of(props, "intensity", 1.0)?;
         let cutoff = props.float("cutoff_angle", 20.0)?;
         let beam = props.float("beam_width", 0.75 * cutoff)?.min(cutoff);
         let angles = [beam, cutoff].map(|a| a.to_radians() as f32);
         let axis = world.transform_vector3(DVec3::Z).as_vec3();
+        if let Some((number, _)) = props.get("texture")
+            && let Some(picture) = self.shone_through(number)?
+            && cutoff < 89.0
+        {
+            let [beam, out] = angles;
+            let falloff = |cos: f32| ((out - cos.acos()) / (out - beam).max(1e-6)).clamp(0.0, 1.0);
+            // Its first row is where y is negative.
+            let axes = Vec3::new(1.0, -1.0, 1.0);
+            return self.project(props, world, axes, (intensity, picture), [2.0 * out.tan(); 2], falloff);
+        }
         let spot = SpotLight::new(world.translation.as_vec3(), axis, intensity, angles);
         self.target.light(spot.map_err(|e| props.bad(&e.to_string()))?.with_rim(Rim::Even));
         Ok(())
     }
 
-    /// As a cone without a picture.
+    /// A plane at distance 1 gets the picture times π as its irradiance.
     fn projector(&mut self, props: &Props, world: &DAffine3) -> Found<()> {
-        self.near("projector", props, "a cone without a picture");
-        props.ignore(&["fov_axis", "focal_length"]);
-        let intensity = self.light_of(props, "irradiance", 1.0)? * props.float("scale", 1.0)? as f32;
-        let half = (0.5 * props.float("fov", 39.6)?.clamp(1.0, 179.0)).to_radians() as f32;
-        let axis = world.transform_vector3(DVec3::Z).as_vec3();
-        let spot = SpotLight::new(world.translation.as_vec3(), axis, intensity, [0.98 * half, half]);
-        self.target.light(spot.map_err(|e| props.bad(&e.to_string()))?);
+        let scale = props.float("scale", 1.0)? as f32;
+        let picture = match props.get("irradiance") {
+            Some((number, _)) => self.shone_through(number)?,
+            None => None,
+        };
+        let (intensity, picture) = match picture {
+            Some(picture) => (Vec3::ONE.into(), picture),
+            None => (self.light_of(props, "irradiance", 1.0)?, RgbImage32::filled(1, 1, [1.0; 3])),
+        };
+        let aspect = f64::from(picture.width) / f64::from(picture.height);
+        let width = 2.0 * super::picture::half_tangent(props, aspect)? as f32;
+        let height = width / aspect as f32;
+        // As a camera would see it.
+        let axes = Vec3::new(-1.0, 1.0, 1.0);
+        self.project(props, world, axes, (intensity * scale, picture), [width, height], |cos| PI / cos.powi(3))
+    }
+
+    /// The picture of a texture that a light shines through; `None` with a warning for other textures.
+    fn shone_through(&mut self, number: usize) -> Found<Option<RgbImage32>> {
+        let number = self.document.resolve(number)?;
+        if self.document.elements[number].tag != "texture" {
+            return Ok(None);
+        }
+        let texture = self.props(number);
+        if texture.element.plugin()?.0 != "bitmap" {
+            self.near("texture", &texture, "even light");
+            return Ok(None);
+        }
+        texture.ignore(&["raw", "wrap_mode", "filter_type", "to_uv", "format"]);
+        let file = texture.string("filename")?.ok_or_else(|| texture.bad("a picture needs a `filename`"))?;
+        let path = self.files.find(&file.value, file.at.source.name());
+        match self.files.picture(&path, self.target) {
+            Ok(picture) => Ok(Some(picture.image)),
+            Err(error) => {
+                let severity = crate::Severity::Warning;
+                let told = Diagnostic { severity, code: "mitsuba::missing-picture", ..first_of(error) };
+                self.target.sink.warn("mitsuba::missing-picture", || file.at.tell(told, "shown as even light"));
+                Ok(None)
+            }
+        }
+    }
+
+    /// A light that shines through a picture, which is `size` large at distance 1, each pixel times `factor` of its cosine.
+    /// `axes` are the signs of x and y to the right and up in the picture.
+    fn project(
+        &mut self,
+        props: &Props,
+        world: &DAffine3,
+        axes: Vec3,
+        (intensity, picture): (Illuminant, RgbImage32),
+        size: [f32; 2],
+        factor: impl Fn(f32) -> f32,
+    ) -> Found<()> {
+        // Fine enough for the factor, too.
+        let finer = LEAST_PROJECTED.div_ceil(picture.width.min(picture.height));
+        let (width, height) = (picture.width * finer, picture.height * finer);
+        let pixel = |i: u32| {
+            let (x, y) = (i % width, i / width);
+            let at = Vec2::new((x as f32 + 0.5) / width as f32 - 0.5, 0.5 - (y as f32 + 0.5) / height as f32);
+            let cos = (at * Vec2::from_array(size)).extend(1.0).length().recip();
+            Vec3::from_array(picture.pixel(x / finer, y / finer)) * factor(cos)
+        };
+        let pixels = (0..width * height).map(pixel).collect();
+        let picture = ImageTexture::new(width as usize, height as usize, pixels, Wrap::Clamp);
+        let picture = picture.ok_or_else(|| props.bad("the picture is empty"))?;
+        let axes = turn(&world.matrix3) * Mat3::from_diagonal(axes);
+        let size = Vec2::from_array(size);
+        let light = ProjectionLight::new(world.translation.as_vec3(), axes, size, intensity, picture);
+        self.target.light(light.map_err(|e| props.bad(&e.to_string()))?);
         Ok(())
     }
 

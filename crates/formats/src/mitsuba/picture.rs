@@ -216,7 +216,7 @@ fn camera(props: &Props, film: &Film, kind: Kind) -> Found<CameraSettings> {
 
 /// Half of the picture's width at distance 1, by `fov` along `fov_axis`, or by `focal_length` of a lens for film of
 /// 36 by 24 mm, whose diagonal it means.
-fn half_tangent(props: &Props, aspect: f64) -> Found<f64> {
+pub(super) fn half_tangent(props: &Props, aspect: f64) -> Found<f64> {
     let per_diagonal = aspect / aspect.hypot(1.0);
     let axes = ["x", "y", "diagonal", "smaller", "larger"];
     let axis = props.word("fov_axis", "x", &axes)?;

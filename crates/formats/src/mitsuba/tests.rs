@@ -324,6 +324,41 @@ fn lights_have_mitsubas_measures() {
 }
 
 #[test]
+fn pictures_are_projected_as_mitsuba_has_them() {
+    // Red above, green below; dark at the right.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.pfm");
+    let mut image = RgbImage32::filled(2, 2, [0.0; 3]);
+    (image.data[0], image.data[2]) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    write_image(&path, &image.into(), Tone::Srgb).unwrap();
+    let bytes = std::fs::read(&path).unwrap();
+    let seen = |emitter: &str, to: Vec3| {
+        let (kind, name) = emitter.split_once(' ').unwrap();
+        let main = wrapped(&format!(
+            "<emitter type='{kind}'><texture name='{name}' type='bitmap'>
+            <string name='filename' value='a.pfm'/></texture><float name='fov' value='90'/>
+            <float name='cutoff_angle' value='45'/><float name='beam_width' value='45'/></emitter>"
+        ));
+        let file = load_files(&[("main.xml", main.as_bytes()), ("a.pfm", &bytes)], &[]).1.unwrap();
+        let scene = file.builder.build().unwrap();
+        scene.lights()[0]
+            .sample_li(to, Vec2::ZERO, &AROUND)
+            .map_or(Vec3::ZERO, |s| Vec3::from_slice(&s.li.lanes()[..3]))
+    };
+    // A camera there has x at its left and y up; a plane at distance 1 gets π times the picture.
+    let p = Vec3::new(0.4, 0.4, 1.0);
+    let cos = p.z / p.length();
+    let red = seen("projector irradiance", p) * cos;
+    assert!((red - std::f32::consts::PI * Vec3::X).length() < 0.05, "{red}");
+    assert!((seen("projector irradiance", p * Vec3::new(1.0, -1.0, 1.0)).y) > 1.0);
+    assert_eq!(seen("projector irradiance", p * Vec3::new(-1.0, 1.0, 1.0)), Vec3::ZERO);
+    // A spot's picture begins where x and y are negative.
+    assert!(seen("spot texture", p * Vec3::new(-1.0, -1.0, 1.0)).x > 0.3);
+    assert!(seen("spot texture", p * Vec3::new(-1.0, 1.0, 1.0)).y > 0.3);
+    assert_eq!(seen("spot texture", p), Vec3::ZERO);
+}
+
+#[test]
 fn what_reflects_has_one_side_unless_it_says_otherwise() {
     let kinds = |bsdf: &str| {
         let scene = scene(&format!("<shape type='rectangle'>{bsdf}</shape>"));
