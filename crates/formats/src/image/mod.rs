@@ -24,6 +24,7 @@ mod tiff;
 mod webp;
 
 pub use display::{Tone, linear_from_srgb, srgb_from_linear};
+pub(crate) use save::file_in;
 pub use save::{WriteReport, write_image};
 
 use crate::diagnostic::{Diagnostic, Error, MAX_FILE_BYTES, read_bytes};

@@ -4,6 +4,7 @@ use super::{FORMATS, ImageFile, ImageFormat, Tone, WriteFn};
 use crate::diagnostic::{Diagnostic, Error};
 use std::io::Write;
 use std::path::Path;
+use tempfile::NamedTempFile;
 
 /// What a written file could not keep of the picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,13 +80,18 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-fn replace_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+/// A file in a folder that gets its name when it is whole.
+pub(crate) fn file_in(folder: &Path) -> std::io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(".sunfleck-").suffix(".part");
-    // Temporary files are private by default; a picture is as open as any new file.
+    // Temporary files are private by default; this one is as open as any new file.
     #[cfg(unix)]
     builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
-    let mut file = builder.tempfile_in(folder_of(path))?;
+    builder.tempfile_in(folder)
+}
+
+fn replace_file(path: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    let mut file = file_in(folder_of(path))?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
     file.persist(path)?;

@@ -1,10 +1,10 @@
 //! What lies beside the text: in a folder of its own, which takes its name when everything is written.
 
 use crate::diagnostic::{Diagnostic, Error};
-use crate::image::{RgbImage32, Tone, write_image};
+use crate::image::{RgbImage32, Tone, file_in, write_image};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use tempfile::{NamedTempFile, TempDir};
+use tempfile::TempDir;
 
 /// Files that wait for the text.
 pub(super) struct Files {
@@ -48,7 +48,7 @@ impl Files {
     pub(super) fn commit(self, text: &str) -> Result<usize, Error> {
         let Self { path, name, waiting, count } = self;
         let fail = |e: &std::io::Error| cannot(&path, e);
-        let mut file = NamedTempFile::new_in(folder(&path)).map_err(|e| fail(&e))?;
+        let mut file = file_in(folder(&path)).map_err(|e| fail(&e))?;
         file.write_all(text.as_bytes()).map_err(|e| fail(&e))?;
         let target = folder(&path).join(name);
         // An older folder steps aside until the new one is there.

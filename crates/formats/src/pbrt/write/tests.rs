@@ -207,6 +207,15 @@ fn nothing_is_left_behind_where_it_cannot_be_written_and_old_files_go() {
     std::fs::create_dir(folder.path().join("a.files")).unwrap();
     std::fs::write(folder.path().join("a.files/old.ply"), "").unwrap();
     write(&to, &Written::from(&first)).unwrap();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        let plain = folder.path().join("plain");
+        std::fs::write(&plain, "").unwrap();
+        let mode = |p: &Path| p.metadata().unwrap().permissions().mode();
+        assert_eq!(mode(&to), mode(&plain));
+        std::fs::remove_file(plain).unwrap();
+    }
     assert!(!folder.path().join("a.files/old.ply").exists());
     let left = std::fs::read_dir(folder.path()).unwrap().count();
     assert!(left <= 2, "{left} entries");
