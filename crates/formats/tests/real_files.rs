@@ -175,8 +175,10 @@ fn the_reference_of_the_cornell_box_has_its_known_mean() {
 #[test]
 fn every_scene_can_be_written_as_pbrt_and_read_back() {
     let Some(folder) = shared("scenes") else { return };
-    let is_scene = |p: &PathBuf| has_extension(p, &["pbrt", "scn", "xml"]) && !p.ends_with("geometry.pbrt");
-    let small = |p: &PathBuf| !["fractal", "machines", "luxcore"].iter().any(|big| p.to_string_lossy().contains(big));
+    let is_scene =
+        |p: &PathBuf| has_extension(p, &["pbrt", "scn", "xml", "gltf", "glb"]) && !p.ends_with("geometry.pbrt");
+    let small =
+        |p: &PathBuf| !["fractal", "machines", "luxcore", "odd-"].iter().any(|big| p.to_string_lossy().contains(big));
     for path in files_below(&folder).into_iter().filter(is_scene).filter(small) {
         // Parts of other scenes are none by themselves.
         let Ok(first) = load_one(&path, false) else { continue };

@@ -24,14 +24,24 @@ impl Importer<'_> {
         // As in version 4, names count in the whole file, also before they are given.
         if let Some((awaited, _)) = self.awaited.remove(name) {
             let id = self.material_id(made);
-            self.target.builder().exchange_material(awaited, id);
-            if let Some((_, surfaces)) = &mut self.object {
-                surfaces.iter_mut().filter(|s| s.material == awaited).for_each(|s| s.material = id);
+            self.exchange(awaited, id);
+            let pierced: Vec<_> = self.masks.iter().filter(|m| m.0 == awaited).copied().collect();
+            for (_, opacity, old) in pierced {
+                let new = self.masked(id, opacity);
+                self.exchange(old, new);
             }
             let held = self.blocks_and_state();
             held.filter(|c| **c == Some(Cover::Material(awaited))).for_each(|c| *c = Some(made));
         }
         Ok(())
+    }
+
+    /// Gives all surfaces so far of one material another.
+    fn exchange(&mut self, old: MaterialId, new: MaterialId) {
+        self.target.builder().exchange_material(old, new);
+        if let Some((_, surfaces)) = &mut self.object {
+            surfaces.iter_mut().filter(|s| s.material == old).for_each(|s| s.material = new);
+        }
     }
 
     pub(super) fn named_material(&mut self, name: &str, at: &At) {

@@ -246,13 +246,17 @@ const ALL: &str = "Film \"rgb\" \"integer xresolution\" 64 \"float iso\" 200 \"f
     MakeNamedMaterial \"m\" \"string type\" \"conductor\" \"spectrum eta\" \"metal-Au-eta\" \"float roughness\" 0.1\n\
     AttributeBegin NamedMaterial \"m\" Shape \"cylinder\" Shape \"cone\" Shape \"paraboloid\" Shape \"hyperboloid\" AttributeEnd\n\
     Material \"dielectric\" \"spectrum eta\" \"glass-BK7\" Shape \"sphere\" \"float phimax\" 90 Shape \"disk\"\n\
-    Material \"mix\" \"string materials\" [\"m\" \"m\"] Material \"uber\" \"texture Kd\" \"t\"\n\
+    NamedMaterial \"later\" Shape \"sphere\" \"texture alpha\" \"s\" MakeNamedMaterial \"later\" \"string type\" \"thindielectric\"\n\
+    MakeNamedMaterial \"p\" \"string type\" \"diffuse\" \"texture displacement\" \"s\" #sunfleck \"string type\" \"sunfleck-phong\"\n\
+    NamedMaterial \"p\"\n\
+    Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 0] \"point2 uv\" [0 0 1 0 1 1 0 1] \"integer indices\" [0 1 2 2 3 0]\n\
+    Material \"mix\" \"string materials\" [\"m\" \"later\"] \"texture amount\" \"s\" Shape \"disk\" Material \"uber\" \"texture Kd\" \"t\"\n\
     Shape \"bilinearmesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 1] Shape \"curve\" \"point3 P\" [0 0 0 1 0 0 1 1 0 0 1 1]\n\
     Shape \"loopsubdiv\" \"integer levels\" 2 \"point3 P\" [0 0 0 1 0 0 0 1 0 0 0 1] \"integer indices\" [0 2 1 0 1 3 1 2 3 2 0 3]\n\
     ObjectBegin \"o\" Shape \"sphere\" ObjectEnd Rotate 30 0 1 0 ActiveTransform EndTime Translate 1 0 0 ActiveTransform All\n\
     ObjectInstance \"o\" ReverseOrientation AreaLightSource \"diffuse\" \"blackbody L\" 4000 \"float power\" 10 Shape \"sphere\"\n\
     LightSource \"infinite\" \"float illuminance\" 3 LightSource \"spot\" \"spectrum I\" [400 1 700 2] LightSource \"projection\" \"string filename\" \"a.png\"\n\
-    LightSource \"distant\" LightSource \"point\" MakeNamedMedium \"f\" MediumInterface \"\" \"f\" CoordSysTransform \"c\"\n";
+    LightSource \"distant\" LightSource \"point\" LightSource \"goniometric\" \"string filename\" \"a.png\" MakeNamedMedium \"f\" MediumInterface \"\" \"f\" CoordSysTransform \"c\"\n";
 
 #[test]
 fn one_of_everything_is_read() {
@@ -260,7 +264,7 @@ fn one_of_everything_is_read() {
     let told: Vec<String> = warnings.into_iter().map(|w| format!("{}: {}", w.code, w.message)).collect();
     assert_snapshot!(told.join("\n"));
     let counts = builder.build().unwrap().counts();
-    assert_eq!((counts.lights, counts.instances), (6, 2));
+    assert_eq!((counts.lights, counts.instances), (7, 2));
 }
 
 #[test]

@@ -247,6 +247,12 @@ impl Importer<'_> {
         let invert = params.bool("invert", false)?;
         let wrap = params.word("wrap", "repeat", &["repeat", "black", "clamp", "octahedralsphere"])?;
         let wrap = if wrap == "repeat" { Wrap::Repeat } else { Wrap::Clamp };
+        let upward = params.word("wrapv", "", &["repeat", "clamp"])?;
+        let wrapv = match upward {
+            "repeat" => Wrap::Repeat,
+            "clamp" => Wrap::Clamp,
+            _ => wrap,
+        };
         let encoding = params.string("encoding")?.unwrap_or("sRGB").to_owned();
         let Some((image, _)) = self.picture_file(params, "filename")? else { return Ok(self.constant(MISSING)) };
         let decode =
@@ -260,7 +266,7 @@ impl Importer<'_> {
         };
         let pixels: Vec<Vec3> = image.data.iter().map(value).collect();
         let texture = ImageTexture::new(image.width as usize, image.height as usize, pixels, wrap);
-        let Some(texture) = texture else { return Ok(self.constant(MISSING)) };
+        let Some(texture) = texture.map(|t| t.with_wrap(wrap, wrapv)) else { return Ok(self.constant(MISSING)) };
         let mean = texture.mean();
         let of = self.target.builder().texture(Texture::Image(texture));
         let map = uv_map(params)?;

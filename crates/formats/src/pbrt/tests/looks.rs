@@ -58,6 +58,8 @@ fn a_material_may_be_named_before_it_is_made() {
     let parts = file.builder.parts();
     assert_eq!(parts.materials[parts.objects[0][0].material.0 as usize].name(), "conductor");
     assert_eq!(file.materials, [("later".to_owned(), parts.objects[0][0].material)]);
+    let pierced = "NamedMaterial \"x\" Shape \"sphere\" \"float alpha\" 0.5 MakeNamedMaterial \"x\" \"string type\" \"conductor\"";
+    assert_eq!(covers(pierced), ["mask(conductor)"]);
     let never =
         told("WorldBegin NamedMaterial \"x\" Shape \"sphere\" MakeNamedMaterial \"xx\" \"string type\" \"diffuse\"");
     assert!(never.starts_with("error: no material `x`") && never.contains("xx"), "{never}");

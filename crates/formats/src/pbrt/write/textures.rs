@@ -110,15 +110,20 @@ impl Writer<'_> {
         let data = (0..columns * rows).map(pixel).collect();
         let file = self.files.picture(RgbImage32 { width: columns as u32, height: rows as u32, data })?;
         let is_clamped = |wrap| wrap == Wrap::Clamp;
-        if is_clamped(across) != is_clamped(down) {
-            self.note("pictures that go on differently across and up go on upwards as they do across");
-        }
-        let wrap = if is_clamped(across) { "clamp" } else { "repeat" };
+        let word = |wrap| if is_clamped(wrap) { "clamp" } else { "repeat" };
+        let wrap = word(across);
+        // pbrt has one word for both.
+        let upward = if word(down) == wrap { String::new() } else { ours(&string("wrapv", word(down))) };
         // The picture as it was is the upper half.
         let scale = Vec2::new(1.0 / twice(across) as f32, 1.0 / twice(down) as f32);
         let offset = if down == Wrap::Mirror { Vec2::new(0.0, 0.5) } else { Vec2::ZERO };
         let uv = uv.then(Affine2::from_scale_angle_translation(scale, 0.0, offset));
-        Ok(format!("\"imagemap\"{}{}{}", string("filename", &file), string("wrap", wrap), uv.params()))
+        Ok(format!(
+            "\"imagemap\"{}{}{}",
+            string("filename", &file),
+            string("wrap", wrap),
+            uv.params() + upward.trim_end()
+        ))
     }
 
     /// A texture made of a picture, if `of` is one.
