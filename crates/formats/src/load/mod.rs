@@ -151,7 +151,7 @@ pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
 /// Whether a warning is about a file that is missing or cannot be read, and for which something else stands.
 pub fn is_missing(code: &str) -> bool {
     const WHAT: [&str; 5] = ["missing-picture", "missing-texture", "missing-mesh", "missing-library", "missing-file"];
-    code == "mtl::texture" || code.split("::").nth(1).is_some_and(|what| WHAT.contains(&what))
+    matches!(code, "mtl::texture" | "gltf::picture") || code.split("::").nth(1).is_some_and(|what| WHAT.contains(&what))
 }
 
 fn format_of(path: &Path) -> Result<&'static SceneFormat, Error> {
