@@ -1,5 +1,6 @@
 //! glTF files that other people made to be odd. Skipped where they are not at hand.
 
+use formats::gltf::check;
 use formats::image::read_image_bytes;
 use formats::{Error, LoadOptions, Loaded, load};
 use std::path::{Path, PathBuf};
@@ -133,6 +134,31 @@ fn textures_of_the_web_are_read_and_no_mutation_of_them_is_a_panic() {
                 bytes[at] = before;
             }
             let _ = read_image_bytes(name, &bytes[..at]);
+        }
+    }
+}
+
+#[test]
+fn no_mutation_of_packed_meshes_is_a_panic() {
+    let Some(folder) = shared("scenes/gltf-compression-pack") else { return };
+    let names = [
+        "draco/Box/glTF_Binary/Box_Draco.glb",
+        "gltf-transform/BoxMeshopt.glb",
+        "gltf-transform/DenseSphere.glb",
+        "draco-pmndrs/taxi/model.gltf",
+        "meshopt-japanese-bridge-garden.glb",
+    ];
+    for name in names {
+        let whole = std::fs::read(folder.join(name)).unwrap();
+        let step = whole.len() / 60 + 1;
+        for at in (0..whole.len()).step_by(step) {
+            for value in [0, 0x7F, 0xFF] {
+                let mut bytes = whole.clone();
+                bytes[at] = value;
+                if let Ok((builder, _)) = check(name, bytes, false) {
+                    let _ = builder.build();
+                }
+            }
         }
     }
 }
