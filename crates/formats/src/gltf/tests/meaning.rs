@@ -35,17 +35,17 @@ fn nodes_place_what_hangs_at_them_and_keep_the_outer_side_out() {
 #[test]
 fn accessors_may_be_sparse_normalized_strided_and_of_any_kind() {
     let mut m = Maker::new();
-    // Zeros but for vertices 1 and 2, as bytes of which 127 means 1.
-    let (places, values) = (m.view(&[1, 2]), m.view(&[127, 0, 0, 0, 127, 0]));
+    // Zeros but for vertices 2 and 3, as bytes of which 127 means 1.
+    let (places, values) = (m.view(&[2, 3]), m.view(&[127, 0, 0, 0, 127, 0]));
     m.accessors.push(json!({
-        "componentType": 5120, "type": "VEC3", "count": 3, "normalized": true,
+        "componentType": 5120, "type": "VEC3", "count": 4, "normalized": true,
         "sparse": {
             "count": 2,
             "indices": { "bufferView": places, "componentType": 5121 },
             "values": { "bufferView": values },
         },
     }));
-    let indices = m.list(5123, "SCALAR", 3, &[0, 0, 1, 0, 2, 0]);
+    let indices = m.list(5123, "SCALAR", 3, &[0, 0, 2, 0, 3, 0]);
     let file = m.file(&json!({
         "meshes": [{ "primitives": [{ "attributes": { "POSITION": 0 }, "indices": indices }] }],
         "nodes": [{ "mesh": 0 }],
