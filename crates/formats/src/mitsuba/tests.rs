@@ -7,7 +7,7 @@ use crate::{Diagnostic, Error};
 use glam::{Vec2, Vec3};
 use insta::assert_snapshot;
 use proptest::prelude::*;
-use sunfleck::bsdf::Material;
+use sunfleck::bsdf::{Covering, Lookup, Material, TextureId};
 use sunfleck::camera::Project;
 use sunfleck::light::{Emitter, Light, Surroundings};
 use sunfleck::math::Ray;
@@ -371,6 +371,28 @@ fn what_reflects_has_one_side_unless_it_says_otherwise() {
     let blend =
         "<bsdf type='blendbsdf'><float name='weight' value='0.3'/><bsdf type='null'/><bsdf type='dielectric'/></bsdf>";
     assert_eq!(kinds(blend), ["null", "dielectric", "mix"]);
+}
+
+#[test]
+fn pictures_begin_where_v_is_zero_and_sides_where_normals_point() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.pfm");
+    let mut image = RgbImage32::filled(1, 2, [0.0; 3]);
+    image.data[0] = [1.0, 0.0, 0.0];
+    write_image(&path, &image.into(), Tone::Srgb).unwrap();
+    let bytes = std::fs::read(&path).unwrap();
+    let main = wrapped("<shape type='rectangle'><bsdf type='diffuse'><texture name='reflectance' type='bitmap'>
+        <string name='filename' value='a.pfm'/><transform name='to_uv'><translate y='0.5'/></transform></texture></bsdf></shape>");
+    let file = load_files(&[("main.xml", main.as_bytes()), ("a.pfm", &bytes)], &[]).1.unwrap();
+    let parts = file.builder.parts();
+    let value = |v: f32| {
+        let at = Lookup::new(parts.textures, Vec2::new(0.5, v), Vec3::ZERO, Wavelengths::Rgb);
+        at.spectrum(TextureId(parts.textures.len() as u32 - 1)).lanes()[0]
+    };
+    // Half a picture further down.
+    assert_eq!((value(0.75), value(0.25)), (1.0, 0.0));
+    let Some(Material::Covering(Covering::TwoSided(sides))) = parts.materials.last() else { panic!("no sides") };
+    assert!(sides.front.is_some() && sides.back.is_none());
 }
 
 #[test]
