@@ -133,7 +133,7 @@ impl Importer<'_> {
         let lux = params.maybe_number("illuminance")?.filter(|lux| *lux > 0.0);
         let name = ["latlong", "filename", "mapname"].into_iter().find(|n| params.get(n).is_some());
         let picture = match name {
-            Some(name) => self.picture_file(params, name)?,
+            Some(name) => self.picture_file(params, name, "taken as white")?,
             None => None,
         };
         let Some((image, at)) = picture else {

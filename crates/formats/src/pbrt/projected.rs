@@ -17,7 +17,7 @@ impl Importer<'_> {
         let Some(name) = ["latlong", "filename", "mapname"].into_iter().find(|n| params.get(n).is_some()) else {
             return Ok(None);
         };
-        let picture = self.picture_file(params, name)?.map(|(image, _)| image);
+        let picture = self.picture_file(params, name, "taken as white")?.map(|(image, _)| image);
         // Light without a picture stands for what is missing.
         let image = picture.unwrap_or_else(|| RgbImage32::filled(1, 1, [1.0; 3]));
         Ok(Some((image, name)))

@@ -229,7 +229,7 @@ impl Importer<'_> {
 
     /// A picture of normals; `None` with a warning if it is missing.
     pub(super) fn normal_map(&mut self, params: &Params) -> Found<Option<TextureId>> {
-        let Some((image, _)) = self.picture_file(params, "normalmap")? else { return Ok(None) };
+        let Some((image, _)) = self.picture_file(params, "normalmap", "left out")? else { return Ok(None) };
         // The numbers as they are stored.
         let is_encoded = !holds_floats(params.string("normalmap")?.unwrap_or_default());
         let stored = |p: &[f32; 3]| {
@@ -254,7 +254,9 @@ impl Importer<'_> {
             _ => wrap,
         };
         let encoding = params.string("encoding")?.unwrap_or("sRGB").to_owned();
-        let Some((image, _)) = self.picture_file(params, "filename")? else { return Ok(self.constant(MISSING)) };
+        let Some((image, _)) = self.picture_file(params, "filename", "shown in magenta")? else {
+            return Ok(self.constant(MISSING));
+        };
         let decode =
             decoder(&encoding).ok_or_else(|| params.misfit("encoding", "`sRGB`, `linear` or `gamma` and a number"))?;
         // Files of floats hold linear values, whatever is said.
@@ -278,8 +280,14 @@ impl Importer<'_> {
         self.elsewhere(params, made)
     }
 
-    /// Reads a picture that a parameter names. `None` with a warning if that fails.
-    pub(super) fn picture_file(&mut self, params: &Params, name: &'static str) -> Found<Option<(RgbImage32, At)>> {
+    /// Reads a picture that a parameter names. `None` with a warning, which says what is shown `instead`,
+    /// if that fails.
+    pub(super) fn picture_file(
+        &mut self,
+        params: &Params,
+        name: &'static str,
+        instead: &str,
+    ) -> Found<Option<(RgbImage32, At)>> {
         let Some(file) = params.string(name)?.map(str::to_owned) else {
             return Err(params.bad("pbrt::no-file", "a picture needs a `filename`"));
         };
@@ -290,7 +298,7 @@ impl Importer<'_> {
             Err(error) => {
                 let told =
                     Diagnostic { severity: crate::Severity::Warning, code: "pbrt::missing-picture", ..first_of(error) };
-                self.target.sink.warn("pbrt::missing-picture", || at.tell(told, "shown in magenta"));
+                self.target.sink.warn("pbrt::missing-picture", || at.tell(told, instead));
                 Ok(None)
             }
         }
