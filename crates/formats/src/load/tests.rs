@@ -249,6 +249,34 @@ fn a_texture_is_read_once_and_multiplied_by_its_colour() {
     assert!(debug.contains("Vec3(0.5, 0.0, 1.0)"), "{debug}");
 }
 
+#[test]
+fn mtl_pictures_of_normals_holes_and_roughness_are_data() {
+    let folder = tempfile::tempdir().unwrap();
+    // 188 of 255 is 0.5 through the sRGB curve, but 0.737 as it is stored.
+    for (name, colour) in [("n.png", [0.216, 0.216, 1.0]), ("d.png", [0.5; 3]), ("h.png", [0.5; 3])] {
+        let picture = crate::image::RgbImage32::filled(2, 2, colour);
+        crate::image::write_image(&folder.path().join(name), &picture.into(), Tone::Srgb).unwrap();
+    }
+    let obj = "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl A\nf 1/1 2/1 3/1\n";
+    std::fs::write(folder.path().join("c.obj"), obj).unwrap();
+    let read = |statements: &str| {
+        std::fs::write(folder.path().join("c.mtl"), format!("newmtl A\nKd 0.5\n{statements}\n")).unwrap();
+        let loaded = load(&[folder.path().join("c.obj")], &LoadOptions::default()).unwrap();
+        let codes: Vec<&str> = loaded.warnings.iter().map(|w| w.code).filter(|c| c.starts_with("mtl")).collect();
+        (format!("{:?}", loaded.builder), codes)
+    };
+    let (all, codes) = read("map_Pr d.png\nPm 1\nmap_Bump -bm 0.5 n.png\nmap_d d.png");
+    assert!(codes.is_empty(), "{codes:?}");
+    assert!(all.contains("roughness: 0.737") && all.contains("metallic: 1.0"), "{all}");
+    assert!(all.contains("NormalMapMaterial") && all.contains("MaskMaterial"), "{all}");
+    assert!(all.contains("Vec3(0.73725"), "{all}");
+    assert!(read("Tr 1").1 == ["mtl::opacity"], "a thing that cannot be seen is a mistake");
+    let (half, codes) = read("d 0.5");
+    assert!(codes.is_empty() && half.contains("MaskMaterial") && half.contains("Constant(0.5)"), "{half}");
+    let (_, codes) = read("bump h.png");
+    assert_eq!(codes, ["mtl::heights"]);
+}
+
 /// Numbers that break arithmetic.
 fn number() -> impl Strategy<Value = String> {
     prop::sample::select(vec!["0", "-0", "1", "-1", "0.5", "3e38", "-3e38", "1e20", "1e-20", "1e-45", "1e-38", "7"])

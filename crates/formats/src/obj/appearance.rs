@@ -8,7 +8,8 @@ use glam::Vec3;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use sunfleck::bsdf::{
-    CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, Material, MirrorMaterial, PhongMaterial,
+    CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, MaskMaterial, Material, MirrorMaterial,
+    NormalMapMaterial, PhongMaterial, Scalar,
 };
 use sunfleck::scene::{MaterialId, TextureId};
 use sunfleck::texture::{ImageTexture, Texture, Wrap};
@@ -28,7 +29,7 @@ pub(super) struct Appearances<'t> {
     by_name: HashMap<&'t str, &'t MtlMaterial>,
     folder: &'t Path,
     made: HashMap<Option<usize>, (MaterialId, Option<Vec3>)>,
-    pictures: HashMap<(PathBuf, [u32; 3]), Option<TextureId>>,
+    pictures: HashMap<(PathBuf, [u32; 3], Role), Option<Picture>>,
 }
 
 impl<'t> Appearances<'t> {
@@ -53,7 +54,8 @@ impl<'t> Appearances<'t> {
         let made = if let (Some(mtl), Some((_, span))) = (definition, named) {
             let model = self.model(mtl, (source, *span), target);
             let emission = mtl.emission.map(|e| Vec3::from_array(e).max(Vec3::ZERO));
-            let id = target.builder().material(model);
+            let bare = target.builder().material(model);
+            let id = self.covered(mtl, bare, (source, *span), target);
             if let Some((name, _)) = named {
                 target.name_material(name, id);
             }
@@ -75,18 +77,16 @@ impl<'t> Appearances<'t> {
             let (white, tint) = (target.builder().constant(Vec3::ONE), target.builder().constant(transmittance));
             return DielectricMaterial { eta: eta.into(), reflectance: white, transmittance: tint }.into();
         }
-        if mtl.opacity.is_some_and(|d| d < 1.0) {
-            target.sink.warn("mtl::opacity", || {
-                let message = format!("material `{}` is partly transparent, but has no index of refraction", mtl.name);
-                let warning = Diagnostic::warning("mtl::opacity", message);
-                warning.at(place.0, place.1, "drawn opaque").help("for glass, give `Ni` above 1 besides `d`")
-            });
-        }
         let diffuse = self.diffuse(mtl, kd, place, target);
-        if mtl.roughness.is_some() || mtl.metallic.is_some() {
-            let unit = |x: Option<f32>, default: f32| x.unwrap_or(default).clamp(0.0, 1.0);
+        let mut unit = |file: &Option<String>, factor: Option<f32>, default: f32| {
+            let picture = file.as_ref().and_then(|name| self.picture(name, Vec3::ONE, Role::Data, place, target));
+            picture.map_or(factor.unwrap_or(default), |p| p.mean.x * factor.unwrap_or(1.0)).clamp(0.0, 1.0)
+        };
+        let is_physical = mtl.roughness.is_some() || mtl.metallic.is_some() || mtl.roughness_map.is_some();
+        if is_physical || mtl.metallic_map.is_some() {
+            let roughness = unit(&mtl.roughness_map, mtl.roughness, 0.5);
+            let metallic = unit(&mtl.metallic_map, mtl.metallic, 0.0);
             let f0 = target.builder().constant(Vec3::splat(0.04));
-            let (roughness, metallic) = (unit(mtl.roughness, 0.5), unit(mtl.metallic, 0.0));
             return CookTorranceMaterial { albedo: diffuse, f0, roughness, metallic }.into();
         }
         if REFLECTING.contains(&model) && ks != Vec3::ZERO && kd == Vec3::ZERO && mtl.diffuse_map.is_none() {
@@ -103,27 +103,105 @@ impl<'t> Appearances<'t> {
     /// `Kd`, or the picture that `map_Kd` names times `Kd` (a black one does not count).
     fn diffuse(&mut self, mtl: &MtlMaterial, kd: Vec3, place: (&SourceFile, Span), target: &mut Target) -> TextureId {
         let scale = if mtl.diffuse.is_none() || kd == Vec3::ZERO { Vec3::ONE } else { kd };
-        let picture = mtl.diffuse_map.as_ref().and_then(|name| {
-            let path = self.folder.join(name);
-            let key = (path.clone(), scale.to_array().map(f32::to_bits));
-            *self.pictures.entry(key).or_insert_with(|| read_picture(&path, scale, place, target))
-        });
-        picture.unwrap_or_else(|| target.builder().constant(kd))
+        let name = mtl.diffuse_map.as_ref();
+        let picture = name.and_then(|name| self.picture(name, scale, Role::Colour, place, target));
+        picture.map_or_else(|| target.builder().constant(kd), |p| p.id)
+    }
+
+    /// A material with its normals and its holes. What is glass has none of these.
+    fn covered(
+        &mut self,
+        mtl: &MtlMaterial,
+        of: MaterialId,
+        place: (&SourceFile, Span),
+        target: &mut Target,
+    ) -> MaterialId {
+        let mut id = of;
+        let mut data = |name: &Option<String>, target: &mut Target| {
+            name.as_ref().and_then(|name| self.picture(name, Vec3::ONE, Role::Data, place, target))
+        };
+        if let Some(picture) = data(&mtl.normal_map, target) {
+            if picture.mean.z > 0.6 && picture.mean.z > picture.mean.x + 0.1 {
+                id = target.builder().material(NormalMapMaterial { of: id, map: picture.id, scale: 1.0 });
+            } else {
+                target.sink.warn("mtl::heights", || {
+                    let message = format!("the relief of material `{}` is a picture of heights", mtl.name);
+                    Diagnostic::warning("mtl::heights", message).at(place.0, place.1, "left out")
+                });
+            }
+        }
+        if refraction(mtl, mtl.model.unwrap_or(2)).is_some() {
+            return id;
+        }
+        let opacity: Scalar = match data(&mtl.opacity_map, target) {
+            Some(picture) => picture.id.into(),
+            None => mtl.opacity.unwrap_or(1.0).clamp(0.0, 1.0).into(),
+        };
+        // Many programs write opacity as `Tr`, which is the opposite.
+        if opacity == Scalar::Constant(0.0) {
+            target.sink.warn("mtl::opacity", || {
+                let message = format!("material `{}` says that it cannot be seen at all", mtl.name);
+                let warning = Diagnostic::warning("mtl::opacity", message);
+                warning.at(place.0, place.1, "drawn opaque").help("for glass, give `Ni` above 1 besides `d`")
+            });
+            return id;
+        }
+        if opacity == Scalar::Constant(1.0) {
+            return id;
+        }
+        target.builder().material(MaskMaterial { of: id, opacity })
+    }
+
+    /// A picture times `scale`; a warning if it cannot be read.
+    fn picture(
+        &mut self,
+        name: &str,
+        scale: Vec3,
+        role: Role,
+        place: (&SourceFile, Span),
+        target: &mut Target,
+    ) -> Option<Picture> {
+        let path = self.folder.join(name);
+        let key = (path.clone(), scale.to_array().map(f32::to_bits), role);
+        *self.pictures.entry(key).or_insert_with(|| read_picture(&path, scale, role, place, target))
     }
 }
 
+/// What the numbers of a picture are.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+enum Role {
+    /// Colours.
+    Colour,
+    /// Numbers as they are.
+    Data,
+}
+
+/// A picture, and its mean.
+#[derive(Clone, Copy)]
+struct Picture {
+    id: TextureId,
+    mean: Vec3,
+}
+
 /// Reads a texture; a warning if that fails.
-fn read_picture(path: &Path, scale: Vec3, place: (&SourceFile, Span), target: &mut Target) -> Option<TextureId> {
+fn read_picture(
+    path: &Path,
+    scale: Vec3,
+    role: Role,
+    place: (&SourceFile, Span),
+    target: &mut Target,
+) -> Option<Picture> {
     let read = crate::diagnostic::read_bytes(path).and_then(|bytes| {
         let picture = read_image_bytes(&path.display().to_string(), &bytes)?;
         target.input(&bytes);
-        Ok(picture.image)
+        Ok(if role == Role::Data { picture.undo_srgb().image } else { picture.image })
     });
     match read {
         Ok(image) => {
             let pixels = image.data.iter().map(|p| Vec3::from_array(*p).clamp(Vec3::ZERO, Vec3::ONE) * scale).collect();
             let texture = ImageTexture::new(image.width as usize, image.height as usize, pixels, Wrap::Repeat)?;
-            Some(target.builder().texture(Texture::Image(texture)))
+            let mean = texture.mean();
+            Some(Picture { id: target.builder().texture(Texture::Image(texture)), mean })
         }
         Err(error) => {
             target.sink.warn("mtl::texture", || {

@@ -30,19 +30,43 @@ pub struct MtlMaterial {
     pub metallic: Option<f32>,
     /// `map_Kd`: picture of the diffuse reflectance, as written but with `/` between folders.
     pub diffuse_map: Option<String>,
+    /// `map_Pr`: picture of the roughness.
+    pub roughness_map: Option<String>,
+    /// `map_Pm`: picture of the metalness.
+    pub metallic_map: Option<String>,
+    /// `map_d`: picture of the opacity.
+    pub opacity_map: Option<String>,
+    /// `norm`, or a picture of normals where heights are expected, as many programs write it.
+    pub normal_map: Option<String>,
 }
 
-const KEYWORDS: [&str; 14] =
-    ["newmtl", "Ka", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "Pr", "Pm"];
+const KEYWORDS: [&str; 18] = [
+    "newmtl", "Ka", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "Pr", "Pm", "map_Pr", "map_Pm",
+    "map_d", "norm",
+];
 
 /// Statements that have no meaning for sunfleck.
 const SILENT: [&str; 5] = ["ka", "map_ka", "sharpness", "map_aat", "tr_filter"];
 
 /// Statements whose effect is left out.
-const UNSUPPORTED: [&str; 24] = [
-    "map_ks", "map_ns", "map_d", "map_ke", "map_bump", "bump", "norm", "disp", "decal", "refl", "map_refl", "map_disp",
-    "map_pr", "map_pm", "map_ps", "map_tr", "map_tf", "map_ni", "map_norm", "ps", "pc", "pcr", "aniso", "anisor",
+const UNSUPPORTED: [&str; 17] = [
+    "map_ks", "map_ns", "map_ke", "disp", "decal", "refl", "map_refl", "map_disp", "map_ps", "map_tr", "map_tf",
+    "map_ni", "ps", "pc", "pcr", "aniso", "anisor",
 ];
+
+impl MtlMaterial {
+    fn set_picture(&mut self, key: &str, file: Option<String>) {
+        match key {
+            "map_kd" => self.diffuse_map = file,
+            "map_pr" => self.roughness_map = file,
+            "map_pm" => self.metallic_map = file,
+            "map_d" => self.opacity_map = file,
+            // What is called by its name wins.
+            "norm" | "map_norm" => self.normal_map = file.or(self.normal_map.take()),
+            _ => self.normal_map = self.normal_map.take().or(file),
+        }
+    }
+}
 
 /// Reads an `.mtl` file. Keywords may be written in any case.
 pub fn parse_mtl(source: &SourceFile, sink: &mut Sink) -> Vec<MtlMaterial> {
@@ -83,10 +107,10 @@ impl Parser<'_> {
         match key {
             "kd" | "ks" | "ke" | "tf" => self.colour(key, line, word),
             "ns" | "ni" | "d" | "tr" | "illum" | "pr" | "pm" => self.number(key, line, word),
-            "map_kd" => {
+            "map_kd" | "map_pr" | "map_pm" | "map_d" | "norm" | "map_norm" | "map_bump" | "bump" => {
                 let file = picture_name(&source.text(line.rest()));
                 if let Some(m) = self.materials.last_mut() {
-                    m.diffuse_map = file;
+                    m.set_picture(key, file);
                 }
             }
             _ if SILENT.contains(&key) => {}
