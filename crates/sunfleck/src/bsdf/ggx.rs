@@ -27,6 +27,9 @@ impl Ggx {
     /// Least roughness that f32 directions still resolve; smoother surfaces are mirrors.
     pub const MIN_ALPHA: f32 = 1e-3;
 
+    /// The smoothest landscape.
+    pub(super) const POLISHED: Self = Self { alpha: Vec2::splat(Self::MIN_ALPHA) };
+
     /// A landscape of roughness `alpha`, kept within [`Ggx::MIN_ALPHA`] and 1.
     #[inline]
     pub fn new(alpha: f32) -> Self {

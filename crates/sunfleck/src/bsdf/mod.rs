@@ -9,31 +9,42 @@
 //!
 //! The mathematics that models share is in [`fresnel`] (how much a boundary reflects), [`ggx`] (rough boundaries) and
 //! `cosine_lobe` (Phong's highlights).
+mod albedo;
 mod black;
+mod coated_conductor;
 mod conductor;
 mod cook_torrance;
 mod cosine_lobe;
 pub mod cover;
 mod dielectric;
 mod diffuse;
+mod diffuse_transmission;
 pub mod fresnel;
 pub mod ggx;
 mod mirror;
 mod nrenderer_phong;
+mod packed;
 mod phong;
+mod plastic;
+mod principled;
 mod rough_conductor;
 mod rough_dielectric;
 mod roughness;
+mod sheen;
 mod thin_dielectric;
 
 pub use black::{Black, BlackMaterial};
+pub use coated_conductor::{CoatedConductor, CoatedConductorMaterial};
 pub use conductor::{Conductor, ConductorMaterial};
 pub use cook_torrance::{CookTorrance, CookTorranceMaterial};
 pub use dielectric::{Dielectric, DielectricMaterial};
 pub use diffuse::{Diffuse, DiffuseMaterial};
+pub use diffuse_transmission::{DiffuseTransmission, DiffuseTransmissionMaterial};
 pub use mirror::{Mirror, MirrorMaterial};
 pub use nrenderer_phong::{NRendererPhong, NRendererPhongMaterial};
 pub use phong::{Phong, PhongMaterial};
+pub use plastic::{Plastic, PlasticMaterial};
+pub use principled::{Principled, PrincipledMaterial};
 pub use rough_conductor::{RoughConductor, RoughConductorMaterial};
 pub use rough_dielectric::{RoughDielectric, RoughDielectricMaterial};
 pub use roughness::Roughness;
@@ -210,15 +221,19 @@ impl Bsdf {
 
 models![
     Diffuse / DiffuseMaterial,
+    DiffuseTransmission / DiffuseTransmissionMaterial,
     Mirror / MirrorMaterial,
     Dielectric / DielectricMaterial,
     RoughDielectric / RoughDielectricMaterial,
     ThinDielectric / ThinDielectricMaterial,
     Conductor / ConductorMaterial,
     RoughConductor / RoughConductorMaterial,
+    CoatedConductor / CoatedConductorMaterial,
     Phong / PhongMaterial,
     NRendererPhong / NRendererPhongMaterial,
     CookTorrance / CookTorranceMaterial,
+    Plastic / PlasticMaterial,
+    Principled / PrincipledMaterial,
     Black / BlackMaterial,
 ];
 

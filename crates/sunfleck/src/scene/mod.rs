@@ -6,12 +6,14 @@ mod interaction;
 mod moment;
 mod moving;
 mod parts;
+mod principled;
 mod surfaces;
 mod world;
 
 pub use build::{Quality, SceneBuilder, SceneError, SurfaceDef};
 pub use interaction::{Interaction, Scattered};
 pub use parts::{Instance, Parts};
+pub use principled::Transmission;
 pub use world::{DirectSample, Sky, World};
 
 use crate::{

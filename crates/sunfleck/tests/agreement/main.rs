@@ -130,4 +130,5 @@ agreement![
     dispersive_rough_glass,
     coverings,
     mixed_mirror,
+    layers,
 ];

@@ -79,6 +79,7 @@ pub(crate) const SCENES: &[TinyScene] = &[
     tiny("dispersive_rough_glass", "dispersion in frosted glass", NONE, dispersive_rough_glass),
     tiny("coverings", "holes, two sides, normals and bumps from pictures, brushed metal", NONE, covered::coverings),
     tiny("mixed_mirror", "a mirror mixed with paint behind a pane", LIGHT, covered::mixed_mirror),
+    tiny("layers", "polished plastic, a principled ball that is partly clear, paper", LIGHT, covered::layers),
 ];
 
 /// A room 2 x 2 x 2 around the origin with an open front at z = 1, walls of three colours, and the eye before it.

@@ -74,6 +74,38 @@ fn slightly_rough_surfaces_lose_next_to_nothing() {
 }
 
 #[test]
+fn white_layers_and_white_rough_metal_lose_nothing() {
+    // What facets keep from each other comes back, and what a gloss does not reflect reaches the base.
+    for s in surveys() {
+        let white = ["paint", "metal"].iter().any(|w| s.label.starts_with(&format!("principled {w}")));
+        if white || s.label.starts_with("plastic white") && !s.label.contains(" at 0 seen") {
+            assert!((s.albedo - 1.0).abs().max_element() < 0.02, "{}: {}", s.label, s.albedo);
+        }
+    }
+    for c in cases().iter().filter(|c| c.label.starts_with("plastic white") && c.label.ends_with(" at 0")) {
+        for wo in outgoing() {
+            let s = c.bsdf.sample(wo, 0.0, Vec2::splat(0.5), Transport::Flux).expect("a mirror reflection");
+            let label = format!("{} seen from {}", c.label, wo.0);
+            let matt = surveys().iter().find(|s| s.label == label).map(|s| s.albedo.x);
+            let all = f64::from(s.pdf * s.weight.max()) + matt.unwrap_or(f64::from(1.0 - s.pdf));
+            assert!((all - 1.0).abs() < 4e-3, "{label}: {all}");
+        }
+    }
+}
+
+#[test]
+fn light_between_base_and_boundary_leaves_darker() {
+    // Of 1.5 the boundary sends back 60 % of diffuse light from below (Egan & Hilgeman 1973 tabulate 0.596).
+    let albedo = |name: &str| {
+        let label = format!("plastic tinted nonlinear {name} at 0 seen from {}", Vec3::Z);
+        surveys().iter().find(|s| s.label == label).expect("in the list").albedo
+    };
+    let (pure, bounced, rho) = (albedo("false"), albedo("true"), 0.7);
+    let want = (1.0 - 0.596) / (1.0 - rho * 0.596);
+    assert!((bounced.x / pure.x - want).abs() < 2e-3, "{} {want}", bounced.x / pure.x);
+}
+
+#[test]
 fn a_phong_brighter_than_white_is_scaled_to_white() {
     let all = cases();
     let c = all.iter().find(|c| c.label == "phong too bright").expect("in the list");

@@ -21,7 +21,7 @@ pub(crate) struct Case {
 impl Case {
     /// Whether it has an inside and an outside.
     pub(crate) fn transmits(&self) -> bool {
-        self.model.ends_with("dielectric")
+        self.model.ends_with("dielectric") || self.model == DiffuseTransmissionMaterial::NAME
     }
     /// Relative error that f32 leaves: near grazing, the half vector of a narrow lobe is a small difference of unit vectors.
     pub(crate) fn tolerance(&self) -> f32 {
@@ -71,6 +71,7 @@ pub(crate) fn cases() -> Vec<Case> {
     dielectrics(&mut shelf);
     conductors(&mut shelf);
     glossy(&mut shelf);
+    layered(&mut shelf);
     dispersive(&mut shelf);
     shelf.cases
 }
@@ -179,6 +180,47 @@ fn glossy(s: &mut Shelf) {
     s.add("tinted", CookTorranceMaterial { albedo: diffuse, f0: plastic, roughness: 0.4, metallic: 0.2 });
 }
 
+/// Coats over matt surfaces and metals, and sheets.
+fn layered(s: &mut Shelf) {
+    let (white, black, body) = (s.grey(1.0), s.grey(0.0), s.colour(0.7, 0.4, 0.1));
+    for (name, reflectance, transmittance) in
+        [("white", white, white), ("paper", body, s.colour(0.2, 0.3, 0.3)), ("opaque", body, black)]
+    {
+        s.add(name, DiffuseTransmissionMaterial { reflectance, transmittance });
+    }
+    for (name, diffuse) in [("white", white), ("tinted", body), ("black", black)] {
+        for nonlinear in [false, true] {
+            for alpha in [0.0, 0.1, 0.5] {
+                let plastic = PlasticMaterial { diffuse, specular: white, ior: 1.5, alpha: alpha.into(), nonlinear };
+                s.add(&format!("{name} nonlinear {nonlinear} at {alpha}"), plastic);
+            }
+        }
+    }
+    let plain = PrincipledMaterial::new(white);
+    for (i, r) in [0.1, 0.5, 1.0].into_iter().enumerate() {
+        let rough = PrincipledMaterial { roughness: r.into(), ..plain };
+        s.add(&format!("paint {r}"), rough);
+        s.add(&format!("metal {r}"), PrincipledMaterial { metallic: 1.0.into(), ..rough });
+        s.add(&format!("half metal {r}"), PrincipledMaterial { metallic: 0.5.into(), base: body, ..rough });
+        let coat_roughness = [0.2, 0.6, 0.3][i].into();
+        let coated = PrincipledMaterial { coat: 1.0.into(), coat_roughness, ..rough };
+        s.add(&format!("coated {r}"), coated);
+        s.add(&format!("coated metal {r}"), PrincipledMaterial { metallic: 1.0.into(), ..coated });
+        let cloth = PrincipledMaterial { sheen: Some(white), sheen_roughness: r.into(), ..plain };
+        s.add(&format!("cloth {r}"), cloth);
+        let half = PrincipledMaterial { coat: 0.5.into(), metallic: 0.3.into(), base: body, ..cloth };
+        s.add(&format!("all {r}"), PrincipledMaterial { coat_roughness: 0.4.into(), ..half });
+    }
+    let brushed = Roughness { u: 0.8.into(), v: 0.3.into() };
+    s.add("brushed", PrincipledMaterial { roughness: brushed, metallic: 1.0.into(), ..plain });
+    let gold = ConductorMaterial { eta: s.colour(0.16, 0.42, 1.38), k: s.colour(3.48, 2.36, 1.92), reflectance: white };
+    for alpha in [0.1, 0.5] {
+        let coated =
+            CoatedConductorMaterial { metal: gold, alpha: alpha.into(), coat_ior: 1.5, coat_alpha: 0.05.into() };
+        s.add(&format!("gold {alpha}"), coated);
+    }
+}
+
 /// Directions from along the normal to grazing, above and below.
 pub(crate) fn outgoing() -> Vec<Local> {
     let mut out = Vec::new();
@@ -203,6 +245,7 @@ fn every_model_of_the_list_is_under_test() {
 fn closures_stay_small() {
     // A light vertex or a gather point keeps one for a whole pass.
     assert!(size_of::<RoughConductor>() <= 64 && size_of::<RoughDielectric>() <= 64 && size_of::<CookTorrance>() <= 64);
+    assert!(size_of::<Principled>() <= 64 && size_of::<Plastic>() <= 64 && size_of::<CoatedConductor>() <= 64);
     assert!(size_of::<Phong>() <= 64 && size_of::<NRendererPhong>() <= 64 && size_of::<Bsdf>() <= 80);
 }
 

@@ -3,11 +3,12 @@ use super::{ball, diffuse, emit, finish, lamp, room};
 use glam::Vec3;
 use sunfleck::{
     bsdf::{
-        BumpMapMaterial, ConductorMaterial, MaskMaterial, MirrorMaterial, MixMaterial, NormalMapMaterial,
-        RoughConductorMaterial, Roughness, ThinDielectricMaterial, TwoSidedMaterial,
+        BumpMapMaterial, ConductorMaterial, DiffuseTransmissionMaterial, MaskMaterial, MirrorMaterial, MixMaterial,
+        NormalMapMaterial, PlasticMaterial, PrincipledMaterial, RoughConductorMaterial, Roughness,
+        ThinDielectricMaterial, TwoSidedMaterial,
     },
     light::Sides,
-    scene::{Scene, SceneBuilder, TextureId},
+    scene::{Scene, SceneBuilder, TextureId, Transmission},
     shape::{Parallelogram, Shape},
     spectrum::Rgb,
     texture::{ImageTexture, Texture, Wrap},
@@ -56,5 +57,29 @@ pub(super) fn mixed_mirror() -> Scene {
     let board = Parallelogram::new(Vec3::new(-0.6, -0.9, 0.6), Vec3::X, 1.4 * Vec3::Y);
     b.add(Shape::Parallelogram(board), pane);
     emit(&mut b, lamp(1.6, 0.95), Vec3::splat(3.0), Sides::One);
+    finish(b)
+}
+
+/// Polished plastic, a coated ball of which a third is frosted glass, and a sheet of paper before the lamp.
+pub(super) fn layers() -> Scene {
+    let mut b = room();
+    let [red, white, paper] = [Vec3::new(0.7, 0.2, 0.1), Vec3::ONE, Vec3::splat(0.4)].map(|c| b.constant(c));
+    let plastic = PlasticMaterial { diffuse: red, specular: white, ior: 1.5, alpha: 0.0.into(), nonlinear: true };
+    let plastic = b.material(plastic);
+    b.add(ball([-0.5, -0.55, 0.1], 0.4), plastic);
+    let opaque = PrincipledMaterial {
+        metallic: 0.3.into(),
+        coat: 0.8.into(),
+        coat_roughness: 0.4.into(),
+        sheen: Some(red),
+        ..PrincipledMaterial::new(paper)
+    };
+    let clear = Transmission { amount: 0.5.into(), color: white, ior: 1.5.into(), thin: false };
+    let mixed = b.principled(opaque, Some(clear));
+    b.add(ball([0.45, -0.5, 0.0], 0.45), mixed);
+    let sheet = b.material(DiffuseTransmissionMaterial { reflectance: paper, transmittance: paper });
+    let shade = Parallelogram::new(Vec3::new(-0.3, 0.6, -0.4), 0.8 * Vec3::X, Vec3::new(0.0, -0.3, 0.8));
+    b.add(Shape::Parallelogram(shade), sheet);
+    emit(&mut b, lamp(1.2, 0.95), Vec3::splat(6.0), Sides::One);
     finish(b)
 }
