@@ -21,3 +21,4 @@ mod tests;
 
 pub(crate) use import::FORMAT;
 pub use import::check;
+pub(crate) use scene::pieces;

@@ -118,7 +118,7 @@ impl Importer<'_, '_> {
     }
 
     /// The picture of a texture that a light shines through; `None` with a warning for other textures.
-    fn shone_through(&mut self, number: usize) -> Found<Option<RgbImage32>> {
+    pub(super) fn shone_through(&mut self, number: usize) -> Found<Option<RgbImage32>> {
         let number = self.document.resolve(number)?;
         if self.document.elements[number].tag != "texture" {
             return Ok(None);

@@ -15,6 +15,7 @@ use sunfleck::light::Sides;
 use sunfleck::scene::{ObjectId, SurfaceDef};
 use sunfleck::shape::{Parallelogram, Shape, Sphere};
 use sunfleck::spectrum::Illuminant;
+use sunfleck::texture::{ImageTexture, Wrap};
 
 const SHAPES: [&str; 20] = [
     "bsplinecurve",
@@ -53,7 +54,7 @@ impl<'d> Importer<'d, '_> {
                 }
             }
             _ => {
-                if let Some(SurfaceDef { shape, material, emission }) = self.surface(&props)? {
+                for SurfaceDef { shape, material, emission } in self.surfaces(&props)? {
                     self.target.surface(shape, material, emission);
                 }
             }
@@ -62,8 +63,9 @@ impl<'d> Importer<'d, '_> {
         Ok(())
     }
 
-    /// A shape with what covers it and what it emits; `None` if there is nothing to see of it.
-    fn surface(&mut self, props: &Props<'d>) -> Found<Option<SurfaceDef>> {
+    /// A shape with what covers it and what it emits: pieces of it if that is a picture, and nothing if there is nothing to
+    /// see of it.
+    fn surfaces(&mut self, props: &Props<'d>) -> Found<Vec<SurfaceDef>> {
         let emission = self.emission(props)?;
         let media = props.objects("medium")?;
         if let Some(medium) = media.first() {
@@ -88,14 +90,36 @@ impl<'d> Importer<'d, '_> {
                 "light does not enter surfaces yet: this is left out",
             );
         }
-        let shape = self.geometry(props, cover.varies)?;
-        let is_seen = emission.is_some() || !cover.is_nothing;
-        Ok(shape.filter(|_| is_seen).map(|shape| SurfaceDef { shape, material: cover.material, emission }))
+        let material = cover.material;
+        let picture = match emission {
+            Glow::Picture(picture) => picture,
+            Glow::Nothing if cover.is_nothing => return Ok(Vec::new()),
+            Glow::Nothing => {
+                let shape = self.geometry(props, cover.varies)?;
+                return Ok(shape.into_iter().map(|shape| SurfaceDef { shape, material, emission: None }).collect());
+            }
+            Glow::Even(radiance) => {
+                let emission = Some((radiance, Sides::One));
+                let shape = self.geometry(props, cover.varies)?;
+                return Ok(shape
+                    .into_iter()
+                    .map(|shape| SurfaceDef { shape, material, emission: emission.clone() })
+                    .collect());
+            }
+        };
+        let Some(mesh) = self.mesh(props)? else { return Ok(Vec::new()) };
+        let mut surfaces = Vec::new();
+        for (radiance, piece) in crate::gltf::pieces(mesh, &picture) {
+            let emission = (radiance != Vec3::ZERO).then(|| (radiance.into(), Sides::One));
+            let shape = ply::shape(&piece, props.at().source.name(), &mut self.target.sink);
+            surfaces.extend(shape.map(|shape| SurfaceDef { shape, material, emission }));
+        }
+        Ok(surfaces)
     }
 
     /// What an emitter on the shape sends out.
-    fn emission(&mut self, props: &Props<'d>) -> Found<Option<(Illuminant, Sides)>> {
-        let Some(number) = props.object("emitter")? else { return Ok(None) };
+    fn emission(&mut self, props: &Props<'d>) -> Found<Glow> {
+        let Some(number) = props.object("emitter")? else { return Ok(Glow::Nothing) };
         let light = self.props(number);
         let (name, _) = light.element.plugin()?;
         match name {
@@ -104,13 +128,44 @@ impl<'d> Importer<'d, '_> {
             _ => return Err(light.unknown_plugin("emitter on a shape", &["area"])),
         }
         light.ignore(&["sampling_weight"]);
+        if let Some((number, _)) = light.get("radiance")
+            && let Some(image) = self.shone_through(number)?
+        {
+            self.tell_unused(&light);
+            let pixels = image.data.iter().map(|p| Vec3::from_array(*p).max(Vec3::ZERO)).collect();
+            let picture = ImageTexture::new(image.width as usize, image.height as usize, pixels, Wrap::Repeat);
+            return picture.map(Glow::Picture).ok_or_else(|| light.bad("the picture is empty"));
+        }
         let radiance = self.light_of(&light, "radiance", 1.0)?;
         self.tell_unused(&light);
-        Ok((!radiance.is_black()).then_some((radiance, Sides::One)))
+        Ok(if radiance.is_black() { Glow::Nothing } else { Glow::Even(radiance) })
     }
 
     /// The shape in world space; `None` if there is nothing to see of it, which is told of.
     fn geometry(&mut self, props: &Props<'d>, is_textured: bool) -> Found<Option<Shape>> {
+        let (name, _) = props.element.plugin()?;
+        let world = props.transform("to_world")?;
+        let flip = props.boolean("flip_normals", false)?;
+        if name == "sphere" && !flip && !is_textured {
+            let centre = props.vector("center")?.unwrap_or(DVec3::ZERO).as_vec3();
+            let radius = props.float("radius", 1.0)? as f32;
+            let exact = Shape::Sphere(Sphere { centre, radius }).transformed(&rounded(&world));
+            if let Some(moved) = exact.filter(|_| radius > 0.0) {
+                return Ok(Some(moved));
+            }
+        }
+        if name == "rectangle" && !flip && world.matrix3.determinant() > 0.0 {
+            let side = |v: DVec3| world.transform_vector3(2.0 * v).as_vec3();
+            let corner = world.transform_point3(DVec3::new(-1.0, -1.0, 0.0)).as_vec3();
+            let shape = Shape::Parallelogram(Parallelogram::new(corner, side(DVec3::X), side(DVec3::Y)));
+            return Ok((shape.area() > 0.0).then_some(shape));
+        }
+        let Some(mesh) = self.mesh(props)? else { return Ok(None) };
+        Ok(ply::shape(&mesh, &mesh_name(props)?, &mut self.target.sink))
+    }
+
+    /// The shape in world space, cut into triangles.
+    fn mesh(&mut self, props: &Props<'d>) -> Found<Option<PlyMesh>> {
         let (name, at) = props.element.plugin()?;
         let world = props.transform("to_world")?;
         let flip = props.boolean("flip_normals", false)?;
@@ -118,26 +173,9 @@ impl<'d> Importer<'d, '_> {
         let mesh = match name {
             "sphere" => {
                 let centre = props.vector("center")?.unwrap_or(DVec3::ZERO);
-                let radius = props.float("radius", 1.0)?;
-                let exact = Shape::Sphere(Sphere { centre: centre.as_vec3(), radius: radius as f32 });
-                if let Some(moved) = exact.transformed(&rounded(&world))
-                    && radius > 0.0
-                    && !(flip || is_textured)
-                {
-                    return Ok(Some(moved));
-                }
-                scaled(primitives::sphere(), centre, radius)
+                scaled(primitives::sphere(), centre, props.float("radius", 1.0)?)
             }
-            "rectangle" => {
-                if !flip && world.matrix3.determinant() > 0.0 {
-                    let side = |v: DVec3| world.transform_vector3(2.0 * v).as_vec3();
-                    let corner = world.transform_point3(DVec3::new(-1.0, -1.0, 0.0)).as_vec3();
-                    let patch = Parallelogram::new(corner, side(DVec3::X), side(DVec3::Y));
-                    let shape = Shape::Parallelogram(patch);
-                    return Ok((shape.area() > 0.0).then_some(shape));
-                }
-                primitives::rectangle()
-            }
+            "rectangle" => primitives::rectangle(),
             "cube" => primitives::cube(),
             "disk" => primitives::disk(),
             "cylinder" => {
@@ -165,12 +203,8 @@ impl<'d> Importer<'d, '_> {
             _ => return Err(at.unknown("shape", name, SHAPES)),
         };
         let mut mesh = mesh;
-        let name = match props.string("filename")? {
-            Some(file) => file.value.clone(),
-            None => at.source.name().to_owned(),
-        };
-        ply::place(&mut mesh, &world, flip, &name, &mut self.target.sink);
-        Ok(ply::shape(&mesh, &name, &mut self.target.sink))
+        ply::place(&mut mesh, &world, flip, &mesh_name(props)?, &mut self.target.sink);
+        Ok(Some(mesh))
     }
 
     /// The mesh of a file with the normals that Mitsuba gives it. `None` with a warning if there is no such file.
@@ -240,9 +274,7 @@ impl<'d> Importer<'d, '_> {
         let mut surfaces = Vec::new();
         for inner in props.objects("shape")? {
             let inner = self.props(inner);
-            if let Some(surface) = self.surface(&inner)? {
-                surfaces.push(surface);
-            }
+            surfaces.extend(self.surfaces(&inner)?);
             self.tell_unused(&inner);
         }
         self.tell_unused(&props);
@@ -250,6 +282,21 @@ impl<'d> Importer<'d, '_> {
         self.groups.insert(number, object);
         Ok(object)
     }
+}
+
+/// What a surface sends out.
+enum Glow {
+    Nothing,
+    /// The same radiance everywhere.
+    Even(Illuminant),
+    /// Radiance by texture coordinates; the first row is at v = 0.
+    Picture(ImageTexture),
+}
+
+/// What messages call a mesh: its file, or that of the scene.
+fn mesh_name(props: &Props) -> Found<String> {
+    let file = props.string("filename")?.map(|file| file.value.clone());
+    Ok(file.unwrap_or_else(|| props.at().source.name().to_owned()))
 }
 
 /// In the precision of the scene.

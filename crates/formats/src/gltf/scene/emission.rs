@@ -4,6 +4,7 @@
 //! of nearly the same colour become one light. What they send out together is what the picture would.
 
 use super::geometry::Geometry;
+use crate::ply::PlyMesh;
 use glam::{Affine2, Vec2, Vec3, Vec4};
 use std::collections::BTreeMap;
 use sunfleck::texture::ImageTexture;
@@ -19,6 +20,27 @@ const EVEN: f32 = 0.04;
 
 /// Triangles of about the same colour: the sum of their colours, weighed by area, and that of their areas.
 type Level = (Vec3, f32, Vec<[u32; 3]>);
+
+/// The pieces of any mesh, by what they emit, where `picture` lies as it is and its `v` grows downwards.
+pub(crate) fn pieces(mesh: PlyMesh, picture: &ImageTexture) -> Vec<(Vec3, PlyMesh)> {
+    let uvs = mesh.uvs.iter().map(|uv| Vec2::from_array(*uv)).collect();
+    let geometry = Geometry {
+        positions: mesh.positions.iter().map(|p| Vec3::from_array(*p)).collect(),
+        normals: mesh.normals.iter().map(|n| Vec3::from_array(*n)).collect(),
+        uvs: [uvs, Vec::new()],
+        triangles: mesh.triangles,
+        ..Geometry::default()
+    };
+    let back = |g: Geometry| PlyMesh {
+        positions: g.positions.iter().map(Vec3::to_array).collect(),
+        normals: g.normals.iter().map(Vec3::to_array).collect(),
+        uvs: g.uvs[0].iter().map(Vec2::to_array).collect(),
+        triangles: g.triangles,
+        ..PlyMesh::default()
+    };
+    let glow = Glow { picture, map: Affine2::IDENTITY, set: 0 };
+    glow.pieces(geometry).into_iter().map(|(radiance, piece)| (radiance, back(piece))).collect()
+}
 
 /// A picture, and the way from the file's texture coordinates to its own.
 pub(super) struct Glow<'p> {

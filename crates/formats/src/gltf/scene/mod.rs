@@ -16,5 +16,7 @@ mod nodes;
 mod skin;
 mod textures;
 
+pub(crate) use emission::pieces;
+
 pub(super) use importer::Importer;
 pub(super) use textures::uv_set;
