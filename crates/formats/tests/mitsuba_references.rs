@@ -96,7 +96,19 @@ fn things_around_a_lamp_agree_with_mitsuba() {
 }
 
 #[test]
-fn frosted_glass_is_near_mitsubas() {
-    // Its facets follow Beckmann there, and GGX here.
-    assert_accepted("bsdf_spheres/test_roughdielectric_path.xml", "bsdf_spheres/refs/test_roughdielectric", 0.97);
+fn materials_that_differ_a_little_stay_near_mitsubas() {
+    // Facets by GGX instead of Beckmann's, one anisotropy for a textured one, and another principled and plastic model. The
+    // spheres fill a third of the picture.
+    for (name, least) in [
+        ("roughdielectric", 0.97),
+        ("textured_roughconductor", 0.8),
+        ("roughplastic_linear", 0.75),
+        ("roughplastic_nonlinear", 0.9),
+        ("texturedprincipled1", 0.7),
+        ("texturedprincipled2", 0.7),
+        ("texturedprincipledthin", 0.9),
+    ] {
+        let scene = format!("bsdf_spheres/test_{name}_path.xml");
+        assert_accepted(&scene, &format!("bsdf_spheres/refs/test_{name}"), least);
+    }
 }

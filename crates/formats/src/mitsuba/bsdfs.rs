@@ -7,8 +7,8 @@ use super::scene::Importer;
 use super::spectra::Role;
 use glam::Vec3;
 use sunfleck::bsdf::{
-    BlackMaterial, BumpMapMaterial, CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, MaskMaterial, Material,
-    MixMaterial, NormalMapMaterial, NullMaterial, PhongMaterial, RoughConductorMaterial, RoughDielectricMaterial,
+    BlackMaterial, BumpMapMaterial, DielectricMaterial, DiffuseMaterial, MaskMaterial, Material, MixMaterial,
+    NormalMapMaterial, NullMaterial, PhongMaterial, PlasticMaterial, RoughConductorMaterial, RoughDielectricMaterial,
     Roughness, ThinDielectricMaterial, TwoSidedMaterial,
 };
 use sunfleck::scene::MaterialId;
@@ -89,7 +89,7 @@ impl Importer<'_, '_> {
     }
 
     /// A material that is black on the inner side.
-    fn one_sided(&mut self, model: impl Into<Material>) -> MaterialId {
+    pub(super) fn one_sided(&mut self, model: impl Into<Material>) -> MaterialId {
         let front = Some(self.target.builder().material(model));
         self.target.builder().material(TwoSidedMaterial { front, back: None })
     }
@@ -133,6 +133,7 @@ impl Importer<'_, '_> {
                 return self.laid_over(name, props, wanted);
             }
             "blendbsdf" | "mixturebsdf" => return self.blend(name, props, wanted),
+            "principled" | "principledthin" => return self.principled(name, props, wanted),
             _ => {}
         }
         let model = self.model(name, props)?;
@@ -169,9 +170,7 @@ impl Importer<'_, '_> {
                 let alpha = self.alpha(props)?;
                 RoughConductorMaterial { metal: self.metal(props)?, alpha }.into()
             }
-            "plastic" | "roughplastic" | "pplastic" | "principled" | "principledthin" => {
-                self.glossy(name, props)?.into()
-            }
+            "plastic" | "roughplastic" | "pplastic" => self.plastic(name, props)?.into(),
             "phong" => PhongMaterial {
                 diffuse: self.input(props, &["diffuse_reflectance"], Vec3::splat(0.5), Role::Reflectance)?.id,
                 specular: self.input(props, &["specular_reflectance"], Vec3::splat(0.2), Role::Reflectance)?.id,
@@ -212,36 +211,16 @@ impl Importer<'_, '_> {
         Ok(Roughness { u: self.scalar(props, "alpha_u", 0.1)?, v: self.scalar(props, "alpha_v", 0.1)? })
     }
 
-    /// A matt base below a clear coat.
-    fn glossy(&mut self, name: &str, props: &Props) -> Found<CookTorranceMaterial> {
-        self.near(name, props, "a matt base under a rough gloss (`cooktorrance`)");
-        let names = ["diffuse_reflectance", "base_color"];
-        let albedo = self.input(props, &names, Vec3::splat(0.5), Role::Reflectance)?.id;
-        props.ignore(&[
-            "nonlinear",
-            "specular_reflectance",
-            "specular_sampling_weight",
-            "diffuse_reflectance_sampling_rate",
-        ]);
-        let is_principled = name.starts_with("principled");
-        let (roughness, metallic) = if is_principled {
-            props.ignore(&["anisotropic", "spec_trans", "spec_tint", "sheen", "sheen_tint", "flatness", "clearcoat"]);
-            props.ignore(&["clearcoat_gloss", "specular", "diff_trans", "main_specular_sampling_rate"]);
-            (self.mean_of(props, "roughness", 0.5)?, self.mean_of(props, "metallic", 0.0)?)
-        } else if name == "plastic" {
-            (0.05, 0.0)
-        } else {
-            self.alpha(props)?;
-            (self.mean_of(props, "alpha", 0.1)?.max(0.0).sqrt(), 0.0)
-        };
-        let eta = if is_principled {
-            self.mean_of(props, "eta", 1.5)? as f32
-        } else {
-            indices::relative(props, "polypropylene")?
-        };
-        let f0 = self.constant(Vec3::splat(((eta - 1.0) / (eta + 1.0)).powi(2))).id;
-        let [roughness, metallic] = [roughness, metallic].map(|v| v.clamp(0.0, 1.0) as f32);
-        Ok(CookTorranceMaterial { albedo, f0, roughness, metallic })
+    /// A matt base under a clear boundary.
+    fn plastic(&mut self, name: &str, props: &Props) -> Found<PlasticMaterial> {
+        props.ignore(&["specular_sampling_weight"]);
+        Ok(PlasticMaterial {
+            diffuse: self.input(props, &["diffuse_reflectance"], Vec3::splat(0.5), Role::Reflectance)?.id,
+            specular: self.input(props, &["specular_reflectance"], Vec3::ONE, Role::Reflectance)?.id,
+            ior: indices::relative(props, "polypropylene")?,
+            alpha: if name == "plastic" { 0.0.into() } else { self.alpha(props)? },
+            nonlinear: props.boolean("nonlinear", false)?,
+        })
     }
 
     /// Ward's highlights as those of Phong's model that are as wide.

@@ -17,6 +17,7 @@ mod metals;
 mod metals_table;
 mod picture;
 mod primitives;
+mod principled;
 mod props;
 mod reader;
 mod scene;

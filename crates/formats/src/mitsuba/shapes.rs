@@ -66,6 +66,7 @@ impl<'d> Importer<'d, '_> {
     /// A shape with what covers it and what it emits: pieces of it if that is a picture, and nothing if there is nothing to
     /// see of it.
     fn surfaces(&mut self, props: &Props<'d>) -> Found<Vec<SurfaceDef>> {
+        props.ignore(&["name", "silhouette_sampling_weight", "max_smooth_angle", "collapse", "src_indices"]);
         let emission = self.emission(props)?;
         let media = props.objects("medium")?;
         if let Some(medium) = media.first() {
@@ -169,7 +170,6 @@ impl<'d> Importer<'d, '_> {
         let (name, at) = props.element.plugin()?;
         let world = props.transform("to_world")?;
         let flip = props.boolean("flip_normals", false)?;
-        props.ignore(&["name", "silhouette_sampling_weight", "max_smooth_angle", "collapse", "src_indices"]);
         let mesh = match name {
             "sphere" => {
                 let centre = props.vector("center")?.unwrap_or(DVec3::ZERO);
