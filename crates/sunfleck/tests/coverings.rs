@@ -5,7 +5,10 @@ use sunfleck::{
         Bsdf, BumpMapMaterial, COVERINGS, DiffuseMaterial, MaskMaterial, Material, MirrorMaterial, MixMaterial,
         NormalMapMaterial, NullMaterial, Scalar, TwoSidedMaterial,
     },
-    light::Sides,
+    camera::{Perspective, View},
+    film::{FilmSpec, Filter, PassImage},
+    integrator::{Params, Pass, find},
+    light::{DirectionalLight, Sides},
     math::{Ray, warp::square_to_sphere},
     sampler::{Domain, Sampler},
     scene::{Interaction, MaterialId, Scene, SceneBuilder, SceneError, SurfaceDef},
@@ -259,4 +262,44 @@ fn every_covering_is_listed_once() {
     let mut names: Vec<_> = COVERINGS.iter().map(|c| c.name).collect();
     names.dedup();
     assert_eq!(names, ["mix", "mask", "null", "twosided", "normalmap", "bumpmap"]);
+}
+
+/// Mean of the picture over 64 passes.
+fn mean_radiance(scene: &Scene, name: &str, settings: &[(&str, &str)]) -> f32 {
+    let mut params = Params::default();
+    settings.iter().for_each(|(k, v)| params.set(*k, *v));
+    let integrator = find(name).unwrap().build(params).unwrap();
+    let spec = FilmSpec { width: 16, height: 16, filter: Filter::Box };
+    let prepared = integrator.prepare(scene, spec, 1);
+    let mut image = PassImage::new(spec);
+    let mut sum = 0.0;
+    for index in 0..64 {
+        image.clear();
+        prepared.render_pass(&Pass::new(1, index), &mut image);
+        sum += image.pixels().iter().map(|p| p.x).sum::<f32>() / spec.pixels() as f32;
+    }
+    sum / 64.0
+}
+
+#[test]
+fn a_mix_under_a_veil_is_as_bright_by_camera_paths_as_by_photons() {
+    let mut b = SceneBuilder::new();
+    let white = b.constant(Rgb::ONE);
+    let mirror = b.material(MirrorMaterial { reflect: white });
+    let [grey, black] = [0.6, 0.0].map(|c| matt(&mut b, c));
+    under(&mut b, square(), MixMaterial { of: [grey, mirror], amount: 0.5.into() });
+    let veil = Parallelogram::new(Vec3::new(-1.2, -1.2, 0.5), 2.4 * Vec3::X, 2.4 * Vec3::Y);
+    under(&mut b, Shape::Parallelogram(veil), MaskMaterial { of: black, opacity: 0.3.into() });
+    let wi = Vec3::new(0.4, 0.2, 1.0).normalize();
+    b.light(DirectionalLight::new(-wi, Vec3::ONE).unwrap());
+    let view = View { position: Vec3::new(0.3, 0.0, 3.0), look_at: Vec3::ZERO, up: Vec3::Y };
+    b.camera(Perspective::new(&view, 20.0, 1.0).unwrap());
+    let scene = build(b);
+    // Through the veil, half matt, and through the veil again.
+    let want = 0.7 * 0.5 * 0.6 / std::f32::consts::PI * wi.z * 0.7;
+    let photons: &[_] = &[("direct", "photons"), ("photons", "20000"), ("radius", "0.1"), ("alpha", "1")];
+    for (name, settings) in [("path", &[] as &[_]), ("ppm", photons), ("photonmap", &[]), ("vcm", &[])] {
+        let got = mean_radiance(&scene, name, settings);
+        assert!((got / want - 1.0).abs() < 0.03, "{name}: {got}, not {want}");
+    }
 }

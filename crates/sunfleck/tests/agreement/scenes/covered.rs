@@ -44,7 +44,7 @@ pub(super) fn coverings() -> Scene {
     finish(b)
 }
 
-/// A ball that is half a mirror, behind a pane.
+/// A ball that is half a mirror and a small lamp, behind a pane.
 pub(super) fn mixed_mirror() -> Scene {
     let mut b = room();
     let grey = diffuse(&mut b, Vec3::splat(0.6));
@@ -56,6 +56,7 @@ pub(super) fn mixed_mirror() -> Scene {
     let pane = b.material(ThinDielectricMaterial { eta: 1.5.into(), reflectance: white, transmittance: white });
     let board = Parallelogram::new(Vec3::new(-0.6, -0.9, 0.6), Vec3::X, 1.4 * Vec3::Y);
     b.add(Shape::Parallelogram(board), pane);
+    emit(&mut b, ball([0.1, 0.1, 0.2], 0.08), Vec3::splat(6.0), Sides::One);
     emit(&mut b, lamp(1.6, 0.95), Vec3::splat(3.0), Sides::One);
     finish(b)
 }
