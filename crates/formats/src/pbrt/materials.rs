@@ -7,8 +7,8 @@ use super::spectra::Role;
 use super::state::Cover;
 use glam::Vec3;
 use sunfleck::bsdf::{
-    ConductorMaterial, CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, Material, MirrorMaterial,
-    RoughConductorMaterial, RoughDielectricMaterial, TextureId, ThinDielectricMaterial,
+    ConductorMaterial, DielectricMaterial, DiffuseMaterial, Material, MirrorMaterial, RoughConductorMaterial,
+    RoughDielectricMaterial, TextureId, ThinDielectricMaterial,
 };
 use sunfleck::scene::MaterialId;
 use sunfleck::spectrum::{Ior, named};
@@ -84,7 +84,11 @@ impl Importer<'_> {
                 MirrorMaterial { reflect: self.spectrum(params, &["Kr"], Vec3::splat(0.9))? }.into()
             }
             "plastic" if !self.has_gloss(params)? => self.matt_base(params, 0.25)?,
-            "coateddiffuse" | "plastic" | "substrate" | "disney" => self.coated(name, params)?.into(),
+            "coateddiffuse" => self.coated_diffuse(params)?,
+            "coatedconductor" => self.coated_conductor(params)?,
+            "plastic" | "substrate" => self.gloss(name, params)?,
+            "disney" => self.disney(params)?,
+            "diffusetransmission" | "translucent" => self.sheet(name, params)?,
             "uber" => self.uber(params)?,
             _ if MATERIALS.contains(&name) => self.substitute(name, params)?,
             _ => return Err(unknown(&params.at, "material", name, MATERIALS)),
@@ -96,7 +100,7 @@ impl Importer<'_> {
         Ok(Cover::Material(id))
     }
 
-    fn near(&mut self, name: &str, params: &Params, what: &str) {
+    pub(super) fn near(&mut self, name: &str, params: &Params, what: &str) {
         self.warn_once("pbrt::substitute", name, || {
             let message = format!("`{name}` is not among our materials: shown as {what}");
             params.at.tell(warning("pbrt::substitute", message), "")
@@ -111,7 +115,7 @@ impl Importer<'_> {
     }
 
     /// The index of refraction under its names in both versions.
-    fn eta(&mut self, params: &Params, default: f32) -> Found<Ior> {
+    pub(super) fn eta(&mut self, params: &Params, default: f32) -> Found<Ior> {
         for name in ["eta", "index"] {
             if let Some(param) = params.get(name) {
                 if param.kind == "texture" {
@@ -122,6 +126,15 @@ impl Importer<'_> {
             }
         }
         Ok(Ior::Constant(default))
+    }
+
+    /// An index under another name; of a texture its mean.
+    pub(super) fn index_of(&mut self, params: &Params, name: &'static str, default: f32) -> Found<f32> {
+        match params.get(name).cloned() {
+            Some(param) if param.kind == "texture" => Ok(self.float(params, name, f64::from(default))? as f32),
+            Some(param) => Ok(self.index(&param)?.d()),
+            None => Ok(default),
+        }
     }
 
     fn glass(&mut self, params: &Params) -> Found<DielectricMaterial> {
@@ -150,7 +163,11 @@ impl Importer<'_> {
     }
 
     /// A metal by its indices or by its reflectance along the normal.
-    fn metal(&mut self, params: &Params, [eta, k, reflectance]: [&'static str; 3]) -> Found<ConductorMaterial> {
+    pub(super) fn metal(
+        &mut self,
+        params: &Params,
+        [eta, k, reflectance]: [&'static str; 3],
+    ) -> Found<ConductorMaterial> {
         let white = self.target.builder().constant(Vec3::ONE);
         if let Some(param) = params.get(reflectance) {
             let param = param.clone();
@@ -163,29 +180,6 @@ impl Importer<'_> {
         let eta = self.index_texture(params, eta, "metal-Cu-eta")?;
         let k = self.index_texture(params, k, "metal-Cu-k")?;
         Ok(ConductorMaterial { eta, k, reflectance: self.spectrum(params, &["tint"], Vec3::ONE)? })
-    }
-
-    /// A matt base below a clear coat.
-    fn coated(&mut self, name: &str, params: &Params) -> Found<CookTorranceMaterial> {
-        self.near(name, params, "a matt base under a rough gloss (`cooktorrance`)");
-        params.ignore(&["thickness", "g", "albedo", "maxdepth", "nsamples", "twosided", "opacity", "Kr", "Kt"]);
-        let (base, rough): (f32, f64) = match name {
-            "plastic" => (0.25, 0.1),
-            "coateddiffuse" => (0.5, 0.0),
-            "disney" => (0.5, 0.5),
-            _ => (0.5, 0.1),
-        };
-        let albedo = self.spectrum(params, &["reflectance", "Kd", "color"], Vec3::splat(base))?;
-        let alpha = self.alpha(params, ["roughness", "uroughness", "vroughness"], rough)?;
-        let eta = self.eta(params, 1.5)?.d();
-        let f0 = ((eta - 1.0) / (eta + 1.0)).powi(2);
-        let metallic = self.float(params, "metallic", 0.0)?.clamp(0.0, 1.0) as f32;
-        let f0 = match name {
-            "plastic" | "uber" => self.scaled(params, "Ks", Vec3::splat(0.25), f0)?,
-            "substrate" => self.spectrum(params, &["Ks"], Vec3::splat(0.5))?,
-            _ => self.target.builder().constant(Vec3::splat(f0)),
-        };
-        Ok(CookTorranceMaterial { albedo, f0, roughness: alpha.sqrt(), metallic })
     }
 
     fn uber(&mut self, params: &Params) -> Found<Material> {
@@ -203,7 +197,7 @@ impl Importer<'_> {
         if !self.has_gloss(params)? {
             return self.matt_base(params, 0.25);
         }
-        Ok(self.coated("uber", params)?.into())
+        self.gloss("uber", params)
     }
 
     /// Whether version 3's `Ks` reflects anything: its boundary is that of the index, and an index of 1 has none.
@@ -224,28 +218,10 @@ impl Importer<'_> {
     /// The nearest model for what has none of its own.
     fn substitute(&mut self, name: &str, params: &Params) -> Found<Material> {
         let (what, model): (&str, Material) = match name {
-            "coatedconductor" => ("its metal without the coat", {
-                let names = ["conductor.roughness", "conductor.uroughness", "conductor.vroughness"];
-                let alpha = self.roughness(params, names, 0.0)?;
-                params.ignore(&[
-                    "interface.roughness",
-                    "interface.uroughness",
-                    "interface.vroughness",
-                    "interface.eta",
-                ]);
-                params.ignore(&["thickness", "g", "albedo", "maxdepth", "nsamples"]);
-                let metal = self.metal(params, ["conductor.eta", "conductor.k", "reflectance"])?;
-                alpha.map_or_else(|| metal.into(), |alpha| RoughConductorMaterial { metal, alpha }.into())
-            }),
             "subsurface" | "kdsubsurface" => ("a matt surface", {
                 params.ignore(&["mfp", "eta", "g", "sigma_a", "sigma_s", "scale", "name", "roughness", "uroughness"]);
                 params.ignore(&["vroughness", "remaproughness", "Kr", "Kt"]);
                 DiffuseMaterial { reflectance: self.spectrum(params, &["reflectance", "Kd"], Vec3::splat(0.5))? }.into()
-            }),
-            "diffusetransmission" | "translucent" => ("a matt surface", {
-                params.ignore(&["transmittance", "scale", "Ks", "reflect", "transmit", "roughness"]);
-                DiffuseMaterial { reflectance: self.spectrum(params, &["reflectance", "Kd"], Vec3::splat(0.25))? }
-                    .into()
             }),
             _ => ("a matt surface", {
                 params.ignore(&[
@@ -295,13 +271,5 @@ impl Importer<'_> {
                 Ok(self.target.builder().constant(known))
             }
         }
-    }
-
-    fn scaled(&mut self, params: &Params, name: &'static str, default: Vec3, by: f32) -> Found<TextureId> {
-        let colour = match params.get(name).cloned() {
-            Some(param) => self.mean_spectrum(&param)?,
-            None => default,
-        };
-        Ok(self.target.builder().constant(colour * by))
     }
 }

@@ -16,6 +16,7 @@ mod curved;
 mod directives;
 mod import;
 mod infinite;
+mod layers;
 mod lens;
 mod lexer;
 mod lights;

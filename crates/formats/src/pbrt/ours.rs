@@ -6,14 +6,15 @@ use super::state::Cover;
 use glam::Vec3;
 use sunfleck::bsdf::{
     BumpMapMaterial, CookTorranceMaterial, MaskMaterial, Material, NRendererPhongMaterial, NormalMapMaterial,
-    PhongMaterial, Scalar, TwoSidedMaterial,
+    PhongMaterial, PlasticMaterial, PrincipledMaterial, Roughness, Scalar, TwoSidedMaterial,
 };
 use sunfleck::scene::MaterialId;
 
 /// What our own models begin with.
 pub(super) const PREFIX: &str = "sunfleck-";
 
-const MODELS: [&str; 7] = ["bumpmap", "cooktorrance", "mask", "normalmap", "nrenderer-phong", "phong", "twosided"];
+const MODELS: [&str; 9] =
+    ["bumpmap", "cooktorrance", "mask", "normalmap", "nrenderer-phong", "phong", "plastic", "principled", "twosided"];
 
 impl Importer<'_> {
     /// A model of ours, `name` without its beginning.
@@ -42,6 +43,35 @@ impl Importer<'_> {
                     f0: self.spectrum(params, &["Ks"], Vec3::splat(0.04))?,
                     roughness: unit("gloss")?,
                     metallic: unit("metallic")?,
+                }
+                .into()
+            }
+            "plastic" => PlasticMaterial {
+                diffuse: self.spectrum(params, &["Kd"], Vec3::splat(0.5))?,
+                specular: self.spectrum(params, &["Ks"], Vec3::ONE)?,
+                ior: params.number("ior", 1.5)? as f32,
+                alpha: self.both(params, ["alphau", "alphav"])?,
+                nonlinear: params.bool("nonlinear", true)?,
+            }
+            .into(),
+            "principled" => {
+                let base = self.spectrum(params, &["Kd"], Vec3::splat(0.5))?;
+                let colour = |this: &mut Self, name| {
+                    params.get(name).is_some().then(|| this.spectrum(params, &[name], Vec3::ONE)).transpose()
+                };
+                let (specular_color, sheen) = (colour(self, "Ks")?, colour(self, "sheen")?);
+                PrincipledMaterial {
+                    metallic: self.scalar(params, "metallic", 0.0)?,
+                    roughness: self.both(params, ["glossu", "glossv"])?,
+                    ior: self.scalar(params, "ior", 1.5)?,
+                    specular: self.scalar(params, "specular", 1.0)?,
+                    specular_color,
+                    coat: self.scalar(params, "coat", 0.0)?,
+                    coat_roughness: self.scalar(params, "coatroughness", 0.0)?,
+                    coat_ior: params.number("coatior", 1.5)? as f32,
+                    sheen,
+                    sheen_roughness: self.scalar(params, "sheenroughness", 0.3)?,
+                    ..PrincipledMaterial::new(base)
                 }
                 .into()
             }
@@ -75,6 +105,11 @@ impl Importer<'_> {
             Some(cover) => Ok(self.material_id(cover)),
             None => Err(unknown(&params.at, "material", &of, self.named_materials.keys().map(String::as_str))),
         }
+    }
+
+    /// Roughness along and across.
+    fn both(&mut self, params: &Params, [u, v]: [&'static str; 2]) -> Found<Roughness> {
+        Ok(Roughness { u: self.scalar(params, u, 0.0)?, v: self.scalar(params, v, 0.0)? })
     }
 
     /// A number, or a texture of numbers.

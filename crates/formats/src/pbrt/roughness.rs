@@ -37,16 +37,6 @@ impl Importer<'_> {
         Ok((u != Scalar::Constant(0.0) || v != Scalar::Constant(0.0)).then_some(Roughness { u, v }))
     }
 
-    /// One number for what takes one only: the mean where it differs.
-    pub(super) fn alpha(&mut self, params: &Params, names: [&'static str; 3], default: f64) -> Found<f32> {
-        let Some(Roughness { u, v }) = self.roughness(params, names, default)? else { return Ok(0.0) };
-        let mut mean = |s: Scalar| match s {
-            Scalar::Constant(c) => c,
-            Scalar::Texture(id) => self.mean_of(id, 0),
-        };
-        Ok((mean(u) * mean(v)).max(0.0).sqrt().min(1.0))
-    }
-
     fn rough(&mut self, params: &Params, name: &'static str, alpha: &impl Fn(f32) -> f32) -> Found<Option<Scalar>> {
         let Some(param) = params.get(name).cloned() else { return Ok(None) };
         if param.kind == "texture" {
@@ -63,7 +53,7 @@ impl Importer<'_> {
     }
 
     /// The texture whose values are those of `id` under `f`; `None` where that cannot be said.
-    fn mapped_values(&mut self, id: TextureId, f: &impl Fn(f32) -> f32, depth: u32) -> Option<TextureId> {
+    pub(super) fn mapped_values(&mut self, id: TextureId, f: &impl Fn(f32) -> f32, depth: u32) -> Option<TextureId> {
         if depth > MAX_DEPTH {
             return None;
         }

@@ -31,7 +31,9 @@ fn holes_reliefs_and_mixes_are_laid_over_materials() {
         Material \"thindielectric\" Shape \"sphere\"\n\
         Material \"uber\" \"rgb opacity\" 0.3 \"float index\" 1 Shape \"sphere\"\n\
         Material \"plastic\" \"rgb Ks\" [0 0 0] Shape \"sphere\"\n\
-        Material \"dielectric\" \"texture roughness\" \"t\" Shape \"sphere\"";
+        Material \"dielectric\" \"texture roughness\" \"t\" Shape \"sphere\"\n\
+        Material \"coateddiffuse\" Shape \"sphere\" Material \"coatedconductor\" Shape \"sphere\" Material \"translucent\" Shape \"sphere\"\n\
+        Material \"substrate\" Shape \"sphere\" Material \"disney\" Shape \"sphere\"";
     assert_eq!(
         covers(text),
         [
@@ -44,6 +46,11 @@ fn holes_reliefs_and_mixes_are_laid_over_materials() {
             "mask(diffuse)",
             "diffuse",
             "roughdielectric",
+            "plastic",
+            "coatedconductor",
+            "diffusetransmission",
+            "principled",
+            "principled",
         ]
     );
 }

@@ -5,7 +5,8 @@ use super::text::{float, index, ours, param, quoted, string};
 use crate::Error;
 use glam::Vec3;
 use sunfleck::bsdf::{
-    ConductorMaterial, Covering, DielectricMaterial, Material, Roughness, Scalar, TextureId, TwoSidedMaterial,
+    ConductorMaterial, Covering, DielectricMaterial, Material, PlasticMaterial, PrincipledMaterial, Roughness, Scalar,
+    TextureId, TwoSidedMaterial,
 };
 use sunfleck::scene::MaterialId;
 
@@ -77,6 +78,25 @@ impl Writer<'_> {
                     + &float("metallic", m.metallic);
                 Model::near("coateddiffuse", near, "sunfleck-cooktorrance", &exact)
             }
+            Material::Plastic(m) => self.plastic(m)?,
+            Material::CoatedConductor(m) => {
+                let params = self.colour_param("conductor.eta", m.metal.eta)?
+                    + &self.colour_param("conductor.k", m.metal.k)?
+                    + &self.scalar_param("conductor.uroughness", m.alpha.u)?
+                    + &self.scalar_param("conductor.vroughness", m.alpha.v)?
+                    + &float("interface.eta", m.coat_ior)
+                    + &self.scalar_param("interface.roughness", m.coat_alpha)?
+                    + " \"bool remaproughness\" false";
+                let white = self.is_white(m.metal.reflectance);
+                let tint = if white { String::new() } else { self.colour_param("tint", m.metal.reflectance)? };
+                Model { kind: "coatedconductor", params, ours: tint }
+            }
+            Material::DiffuseTransmission(m) => Model::new(
+                "diffusetransmission",
+                self.colour_param("reflectance", m.reflectance)?
+                    + &self.colour_param("transmittance", m.transmittance)?,
+            ),
+            Material::Principled(m) => self.principled(m)?,
             Material::Covering(c) => self.covering(c)?,
             #[allow(unreachable_patterns, reason = "models may be added without a word for them here")]
             other => {
@@ -111,6 +131,53 @@ impl Writer<'_> {
         let exact =
             self.colour_param("Kd", diffuse)? + &self.colour_param("Ks", specular)? + &float("exponent", exponent);
         Ok(Model::near("coateddiffuse", near, kind, &exact))
+    }
+
+    fn plastic(&mut self, m: &PlasticMaterial) -> Result<Model, Error> {
+        let near =
+            self.colour_param("reflectance", m.diffuse)? + &float("eta", m.ior) + &self.roughness(Some(m.alpha))?;
+        if m.nonlinear && self.is_white(m.specular) {
+            return Ok(Model::new("coateddiffuse", near));
+        }
+        let exact = self.colour_param("Kd", m.diffuse)?
+            + &self.colour_param("Ks", m.specular)?
+            + &float("ior", m.ior)
+            + &self.scalar_param("alphau", m.alpha.u)?
+            + &self.scalar_param("alphav", m.alpha.v)?
+            + &format!(" \"bool nonlinear\" {}", m.nonlinear);
+        Ok(Model::near("coateddiffuse", near, "sunfleck-plastic", &exact))
+    }
+
+    fn principled(&mut self, m: &PrincipledMaterial) -> Result<Model, Error> {
+        let near = self.colour_param("reflectance", m.base)?;
+        let mut exact = self.colour_param("Kd", m.base)?;
+        for (name, s) in [
+            ("metallic", m.metallic),
+            ("glossu", m.roughness.u),
+            ("glossv", m.roughness.v),
+            ("ior", m.ior),
+            ("specular", m.specular),
+            ("coat", m.coat),
+            ("coatroughness", m.coat_roughness),
+            ("coatior", m.coat_ior.into()),
+            ("sheenroughness", m.sheen_roughness),
+        ] {
+            exact += &self.scalar_param(name, s)?;
+        }
+        for (name, id) in [("Ks", m.specular_color), ("sheen", m.sheen)] {
+            if let Some(id) = id {
+                exact += &self.colour_param(name, id)?;
+            }
+        }
+        // What shows most, where it is the same everywhere.
+        let is_metal = matches!(m.metallic, Scalar::Constant(metallic) if metallic > 0.5);
+        let mut near = near;
+        if let (Scalar::Constant(u), Scalar::Constant(v)) = (m.roughness.u, m.roughness.v) {
+            let rough = float("uroughness", u * u) + &float("vroughness", v * v);
+            near += &(rough + " \"bool remaproughness\" false");
+        }
+        let kind = if is_metal { "conductor" } else { "coateddiffuse" };
+        Ok(Model::near(kind, near, "sunfleck-principled", &exact))
     }
 
     fn covering(&mut self, c: &Covering) -> Result<Model, Error> {

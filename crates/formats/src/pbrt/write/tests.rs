@@ -149,6 +149,12 @@ fn materials_textures_and_lights_come_back_as_they_were() {
         MakeNamedMaterial \"e\" \"string type\" \"coateddiffuse\" \"texture reflectance\" \"s\" \"float roughness\" 0.3\n\
         MakeNamedMaterial \"i\" \"string type\" \"interface\" MakeNamedMaterial \"l\" \"string type\" \"mirror\" \"rgb Kr\" [0.9 0.5 0.3]\n\
         MakeNamedMaterial \"j\" \"string type\" \"mix\" \"string materials\" [\"k\" \"d\"] \"texture amount\" \"f\"\n\
+        MakeNamedMaterial \"cc\" \"string type\" \"coatedconductor\" \"float interface.roughness\" 0.1 \"float conductor.roughness\" 0.2\n\
+        MakeNamedMaterial \"dt\" \"string type\" \"diffusetransmission\" \"float scale\" 1.5 \"texture reflectance\" \"c\"\n\
+        MakeNamedMaterial \"sb\" \"string type\" \"substrate\" \"texture roughness\" \"f\" \"rgb Ks\" [0.3 0.2 0.1]\n\
+        MakeNamedMaterial \"di\" \"string type\" \"disney\" \"float metallic\" 0.5 \"float clearcoat\" 1 \"float sheen\" 0.5\n\
+        AttributeBegin Translate 0 0 1.5 NamedMaterial \"cc\" Shape \"sphere\" \"float radius\" 0.2 Translate 0.5 0 0 NamedMaterial \"dt\" Shape \"sphere\" \"float radius\" 0.2\n\
+        Translate 0 0.5 0 NamedMaterial \"sb\" Shape \"sphere\" \"float radius\" 0.2 Translate -0.5 0 0 NamedMaterial \"di\" Shape \"sphere\" \"float radius\" 0.2 AttributeEnd\n\
         LightSource \"infinite\" \"rgb L\" [0.2 0.3 0.4] LightSource \"point\" \"blackbody I\" 3000 \"float scale\" 9 \"point3 from\" [2 3 4]\n\
         LightSource \"spot\" \"rgb I\" [9 8 7] \"point3 from\" [-2 3 4] \"point3 to\" [0 0 0] LightSource \"distant\" \"rgb L\" [0.3 0.2 0.1] \"point3 from\" [0 2 1]\n\
         NamedMaterial \"d\" Translate 0 -1.2 0 Shape \"trianglemesh\" \"point3 P\" [-9 0 -9 9 0 -9 9 0 9 -9 0 9] \"integer indices\" [0 2 1 0 3 2]\n\
