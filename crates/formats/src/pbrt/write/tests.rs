@@ -9,9 +9,10 @@ use sunfleck::camera::{Project, Unrolling, View};
 use sunfleck::film::{FilmSpec, Filter, PassImage};
 use sunfleck::integrator::{Params, Pass, find};
 use sunfleck::light::{EnvironmentLight, PointLight};
-use sunfleck::scene::SceneBuilder;
+use sunfleck::scene::{SceneBuilder, SurfaceDef};
 use sunfleck::shape::{Attributes, Mesh, Shape};
-use sunfleck::texture::{ImageTexture, Mapped, Mix, Texture, UvSet, VertexColour, Wrap};
+use sunfleck::spectrum::Wavelengths;
+use sunfleck::texture::{ImageTexture, Lookup, Mapped, Mix, Texture, UvSet, VertexColour, Wrap};
 
 const SIDE: u32 = 32;
 const BLOCKS: u32 = 4;
@@ -43,6 +44,19 @@ fn loaded(path: &Path) -> Loaded {
     load(&[path.to_owned()], &options).unwrap_or_else(|e| panic!("{}:\n{e}", path.display()))
 }
 
+/// How each surface scatters at some place; emitters that are black are written as matt and black.
+fn closures(loaded: &Loaded) -> Vec<String> {
+    let parts = loaded.builder.parts();
+    let at = Lookup::new(parts.textures, Vec2::new(0.3, 0.6), Vec3::splat(0.1), Wavelengths::Rgb);
+    // Curves are told to a millionth.
+    let rounded = |word: &str| word.parse::<f32>().map_or_else(|_| word.to_owned(), |x| format!("{x:.4}"));
+    let told = |s: &SurfaceDef| {
+        let told = format!("{:?}", parts.materials[s.material.0 as usize].resolve(&at));
+        told.split([' ', ',', '(', ')']).map(rounded).collect::<Vec<_>>().join(" ")
+    };
+    parts.surfaces.iter().filter(|s| s.emission.is_none()).map(told).collect()
+}
+
 /// Writes and reads back; block means must agree within 0.5 %.
 fn round_trip(path: &Path) -> (Report, Loaded) {
     let folder = tempfile::tempdir().unwrap();
@@ -55,6 +69,7 @@ fn round_trip(path: &Path) -> (Report, Loaded) {
     let kept = loaded(&to);
     let counts = |l: &Loaded| (l.surfaces, l.lights, l.builder.parts().instances.len());
     assert_eq!(counts(&first), counts(&second), "{}", path.display());
+    assert_eq!(closures(&first), closures(&second), "{}", path.display());
     let (first, second) = (blocks(first), blocks(second));
     for (i, (a, b)) in first.iter().zip(&second).enumerate() {
         assert!(

@@ -1,7 +1,7 @@
 //! Numbers and parameters as text. Numbers are as short as they can be to be read back as they were.
 
 use glam::{Affine3A, Vec3};
-use sunfleck::spectrum::{Colour, Curve, Illuminant, Ior};
+use sunfleck::spectrum::{Colour, Curve, Illuminant, Ior, NAMED};
 
 /// Wavelengths (nm) at which curves are told.
 const NM: std::ops::RangeInclusive<u32> = 360..=830;
@@ -52,11 +52,22 @@ pub(super) fn light(name: &str, l: &Illuminant) -> String {
     }
 }
 
-/// An index of refraction, by wavelength where it depends on it.
+/// Glasses that pbrt knows by the same names.
+const GLASSES: [&str; 7] =
+    ["glass-BK7", "glass-BAF10", "glass-FK51A", "glass-LASF9", "glass-F5", "glass-F10", "glass-F11"];
+
+/// An index of refraction, by wavelength where it depends on it; by name where it has one.
 pub(super) fn index(name: &str, eta: &Ior) -> String {
-    match eta {
-        Ior::Constant(eta) => float(name, *eta),
-        eta => param("spectrum", name, &pairs(&Curve::new(|nm| eta.at_nm(nm)))),
+    if let Ior::Constant(eta) = eta {
+        return float(name, *eta);
+    }
+    let known = NAMED.iter().find(|n| n.ior() == Some(*eta)).map(|n| param("spectrum", name, &quoted(n.name)));
+    let pbrts = NAMED.iter().any(|n| n.ior() == Some(*eta) && GLASSES.contains(&n.name));
+    let curve = || param("spectrum", name, &pairs(&Curve::new(|nm| eta.at_nm(nm))));
+    match known {
+        Some(known) if pbrts => known,
+        Some(known) => curve() + &ours(&known),
+        None => curve(),
     }
 }
 
