@@ -1,6 +1,6 @@
 //! Coverings: materials that are laid over others. They choose between them, let rays through, or bend the normal.
 //!
-//! A [`Site`] is a hit before scattering is known; [`cover`] follows coverings down to a model. The choice between mixed
+//! A [`Site`] is a hit before scattering is known; `cover` follows coverings down to a model. The choice between mixed
 //! materials and the chance of a ray to pass a mask are tossed by a [`Coin`] that depends on the ray and on nothing else:
 //! each ray sees one material, in proportion to the shares. That is right for all algorithms alike. Camera paths,
 //! light paths and shadow rays meet a mask with the same probability, so densities that are weighed against each
