@@ -8,12 +8,9 @@ use super::textures::{Picture, Role};
 use glam::{Vec3, Vec4};
 use serde_json::Value;
 use std::collections::HashMap;
-use sunfleck::bsdf::{
-    CookTorranceMaterial, DielectricMaterial, MaskMaterial, Material, MixMaterial, NormalMapMaterial,
-    RoughDielectricMaterial, ThinDielectricMaterial,
-};
+use sunfleck::bsdf::{MaskMaterial, NormalMapMaterial, PrincipledMaterial};
 use sunfleck::light::Sides;
-use sunfleck::scene::{MaterialId, SurfaceDef, TextureId};
+use sunfleck::scene::{MaterialId, SurfaceDef, TextureId, Transmission};
 use sunfleck::spectrum::Ior;
 use sunfleck::texture::{Channel, Product, Scalar, Texture, Threshold, VertexColour};
 
@@ -58,8 +55,7 @@ impl Importer<'_> {
         let json = index.and_then(|i| self.root.items("materials").get(i)).unwrap_or(&Value::Null);
         let base = self.base(json, has_colours);
         let name = index.map_or_else(|| "materials".to_owned(), |i| self.called("materials", i));
-        let model = self.model(json, base.colour, &name);
-        let bare = self.target.builder().material(model);
+        let bare = self.model(json, base.colour, &name);
         let id = self.relief(json, bare);
         let id = self.holes(json, &base, id);
         if let Some(name) = json.text("name") {
@@ -93,7 +89,7 @@ impl Importer<'_> {
     }
 
     /// A picture times a colour, or the colour alone.
-    fn tinted(&mut self, picture: Option<Picture>, factor: Vec3) -> TextureId {
+    pub(super) fn tinted(&mut self, picture: Option<Picture>, factor: Vec3) -> TextureId {
         match picture {
             Some(picture) if factor == Vec3::ONE => picture.id,
             Some(picture) => {
@@ -104,60 +100,49 @@ impl Importer<'_> {
         }
     }
 
-    /// A factor times one channel of a picture, and its mean.
-    fn channel(&mut self, info: &Value, channel: u8, factor: f32) -> (Scalar, f32) {
-        let Some(picture) = self.texture(info, Role::Data) else { return (factor.into(), factor) };
-        let mean = factor * picture.mean[usize::from(channel)];
-        let mut id = self.target.builder().texture(Texture::Channel(Channel { of: picture.id, channel }));
-        if factor != 1.0 {
-            let factor = self.target.builder().constant(Vec3::splat(factor));
-            id = self.product(id, factor);
+    /// A factor times one channel of a picture; the fourth is its opacity.
+    pub(super) fn channel(&mut self, info: &Value, channel: u8, factor: f32) -> Scalar {
+        let Some(picture) = self.texture(info, Role::Data) else { return factor.into() };
+        let id = match (channel, picture.alpha) {
+            (0..=2, _) => self.target.builder().texture(Texture::Channel(Channel { of: picture.id, channel })),
+            (_, Some(alpha)) => alpha,
+            (_, None) => return factor.into(),
+        };
+        if factor == 1.0 {
+            return id.into();
         }
-        (id.into(), mean)
+        let factor = self.target.builder().constant(Vec3::splat(factor));
+        self.product(id, factor).into()
     }
 
-    fn model(&mut self, json: &Value, colour: TextureId, name: &str) -> Material {
+    /// The model, without normals and holes.
+    fn model(&mut self, json: &Value, colour: TextureId, name: &str) -> MaterialId {
         if json.extension("KHR_materials_unlit").is_some() {
             self.note("gltf::unlit", name, "an unlit material is lit here, as a matt one");
+            let matt =
+                PrincipledMaterial { roughness: 1.0.into(), specular: 0.0.into(), ..PrincipledMaterial::new(colour) };
+            return self.target.builder().material(matt);
         }
         if let Some(old) = json.extension("KHR_materials_pbrSpecularGlossiness") {
-            let picture = self.texture(old.field("specularGlossinessTexture"), Role::Colour);
-            let f0 = self.tinted(picture, Vec3::from_array(old.numbers("specularFactor", [1.0; 3])));
-            let roughness = 1.0 - old.number("glossinessFactor", 1.0).clamp(0.0, 1.0);
-            return CookTorranceMaterial { albedo: colour, f0, roughness, metallic: 0.0 }.into();
+            let model = self.specular_glossiness(old, colour);
+            return self.target.builder().material(model);
         }
-        let pbr = json.field("pbrMetallicRoughness");
-        let unit = |key: &str| pbr.number(key, 1.0).clamp(0.0, 1.0);
-        let packed = pbr.field("metallicRoughnessTexture");
-        let (_, roughness) = self.channel(packed, 1, unit("roughnessFactor"));
-        let (_, metallic) = self.channel(packed, 2, unit("metallicFactor"));
-        let eta = ior(json);
-        let f0 = self.target.builder().constant(Vec3::splat(((eta - 1.0) / (eta + 1.0)).powi(2)));
-        let opaque = CookTorranceMaterial { albedo: colour, f0, roughness, metallic };
-        let Some(clear) = json.extension("KHR_materials_transmission") else { return opaque.into() };
-        let factor = clear.number("transmissionFactor", 0.0).clamp(0.0, 1.0) * (1.0 - metallic);
-        let (amount, _) = self.channel(clear.field("transmissionTexture"), 0, factor);
-        if amount == Scalar::Constant(0.0) {
-            return opaque.into();
-        }
-        let glass = self.glass(json, colour, roughness);
-        if amount == Scalar::Constant(1.0) {
-            return glass;
-        }
-        let of = [self.target.builder().material(opaque), self.target.builder().material(glass)];
-        MixMaterial { of, amount }.into()
+        let opaque = self.principled(json, colour, name);
+        let clear = self.transmission(json, colour, name);
+        self.target.builder().principled(opaque, clear)
     }
 
-    /// What lets light through: with a thickness the boundary of a body, without one a pane.
-    fn glass(&mut self, json: &Value, tint: TextureId, roughness: f32) -> Material {
-        let white = self.target.builder().constant(Vec3::ONE);
+    /// What lets light through: with a thickness the boundary of a body, without one a sheet.
+    fn transmission(&mut self, json: &Value, color: TextureId, name: &str) -> Option<Transmission> {
+        let clear = json.extension("KHR_materials_transmission")?;
+        let factor = clear.number("transmissionFactor", 0.0).clamp(0.0, 1.0);
+        let amount = self.channel(clear.field("transmissionTexture"), 0, factor);
         let volume = json.extension("KHR_materials_volume");
-        if volume.is_none_or(|v| v.number("thicknessFactor", 0.0) <= 0.0) && roughness < 0.3 {
-            return ThinDielectricMaterial { eta: ior(json).into(), reflectance: white, transmittance: tint }.into();
+        let thin = volume.is_none_or(|v| v.number("thicknessFactor", 0.0) <= 0.0);
+        if volume.is_some_and(|v| v.get("attenuationDistance").is_some()) && !thin {
+            self.note("gltf::absorption", name, "what it absorbs inside is left out");
         }
-        let eta = dispersive(ior(json), json);
-        let glass = DielectricMaterial { eta, reflectance: white, transmittance: tint };
-        RoughDielectricMaterial { glass, alpha: (roughness * roughness).into() }.into()
+        Some(Transmission { amount, color, ior: dispersive(ior(json), json), thin })
     }
 
     fn relief(&mut self, json: &Value, of: MaterialId) -> MaterialId {
@@ -196,7 +181,7 @@ impl Importer<'_> {
 }
 
 /// The index of refraction; 0 stands for no refraction at all, which is what a very high one reflects.
-fn ior(json: &Value) -> f32 {
+pub(super) fn ior(json: &Value) -> f32 {
     match json.extension("KHR_materials_ior").map_or(IOR, |e| e.number("ior", IOR)) {
         n if n < 1.0 => 1e3,
         n => n,

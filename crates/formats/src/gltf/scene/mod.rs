@@ -13,6 +13,7 @@ mod lights;
 mod materials;
 mod meshes;
 mod nodes;
+mod principled;
 mod skin;
 mod textures;
 

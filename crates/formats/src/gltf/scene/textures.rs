@@ -30,6 +30,8 @@ pub(super) struct Picture {
     pub(super) alpha: Option<TextureId>,
     /// Of all its pixels.
     pub(super) mean: Vec3,
+    /// Mean of its opacity.
+    pub(super) opacity: f32,
 }
 
 /// Pictures that were read already, by texture and role; `None` for those that cannot be read.
@@ -66,11 +68,11 @@ impl Importer<'_> {
     fn picture(&mut self, texture: usize, role: Role) -> Option<Picture> {
         let Some((image, alpha)) = self.decoded(texture, role) else {
             let id = (role == Role::Colour).then(|| self.target.builder().constant(MISSING));
-            return id.map(|id| Picture { id, alpha: None, mean: MISSING });
+            return id.map(|id| Picture { id, alpha: None, mean: MISSING, opacity: 1.0 });
         };
-        let mean = image.mean();
+        let (mean, opacity) = (image.mean(), alpha.as_ref().map_or(1.0, |a| a.mean().x));
         let mut add = |image| self.target.builder().texture(Texture::Image(image));
-        Some(Picture { id: add(image), alpha: alpha.map(add), mean })
+        Some(Picture { id: add(image), alpha: alpha.map(add), mean, opacity })
     }
 
     /// Reads a texture: its colours or data, and its opacity if it has any. `None` with a finding if that fails.
