@@ -10,6 +10,8 @@ pub enum Filter {
     /// NRenderer's: a square two pixels wide around the pixel's lower left corner, which shifts the picture by half a
     /// pixel and blurs it. Kept for comparison with pictures made there.
     NRenderer,
+    /// The pixel's middle alone. For trainings: what edges within a pixel make of its samples is no noise of an algorithm.
+    Middle,
 }
 
 impl Filter {
@@ -18,6 +20,7 @@ impl Filter {
     pub fn sample(self, u: Vec2) -> Vec2 {
         match self {
             Self::Box => u,
+            Self::Middle => Vec2::splat(0.5),
             Self::NRenderer => Vec2::new(2.0 * u.x - 1.0, 2.0 * u.y),
         }
     }
@@ -26,7 +29,7 @@ impl Filter {
     #[inline]
     pub fn holders(self) -> (&'static [(i32, i32)], f32) {
         match self {
-            Self::Box => (&[(0, 0)], 1.0),
+            Self::Box | Self::Middle => (&[(0, 0)], 1.0),
             Self::NRenderer => (&[(0, -1), (1, -1), (0, 0), (1, 0)], 0.25),
         }
     }
@@ -38,7 +41,7 @@ mod tests {
 
     #[test]
     fn a_pixel_is_a_holder_of_every_place_it_samples() {
-        for filter in [Filter::Box, Filter::NRenderer] {
+        for filter in [Filter::Box, Filter::NRenderer, Filter::Middle] {
             for i in 0..100 {
                 let p = Vec2::new(7.0, 5.0) + filter.sample(Vec2::new(((i * 37) % 100) as f32, i as f32) / 100.0);
                 let (x, y) = (p.x.floor() as i32, p.y.floor() as i32);

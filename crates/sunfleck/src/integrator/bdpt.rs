@@ -9,7 +9,7 @@ pub(super) const ENTRY: Entry = Entry {
     about: "bidirectional path tracing: paths from both ends, joined every way; interiors",
     params: &PARAMS,
     mergeable: true,
-    make: |p| Ok(Box::new(Engine::from_params(ON, p)?)),
+    make: |p| Ok(Box::new(Engine::new(ON).with_params(p)?)),
 };
 
 pub(super) const ON: Techniques =

@@ -15,7 +15,7 @@ mod sppm;
 mod unified;
 mod vcm;
 
-pub use engine::{Engine, Heuristic, Merge, Technique, Techniques};
+pub use engine::{Engine, Fit, Heuristic, Merge, Technique, Techniques};
 pub use light::LightTracer;
 pub use params::{ParamError, ParamInfo, Params};
 pub use path::PathTracer;

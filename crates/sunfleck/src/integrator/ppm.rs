@@ -23,7 +23,7 @@ pub(super) const ENTRY: Entry = Entry {
         let merge = [Merge::First, Merge::FirstAll][p.word("direct", 0, &["connect", "photons"])?];
         let connect = merge == Merge::First;
         let on = Techniques { hit: true, nee: connect, light_image: false, connect: false, merge };
-        Ok(Box::new(Engine::from_params(on, p)?))
+        Ok(Box::new(Engine::new(on).with_params(p)?))
     },
 };
 

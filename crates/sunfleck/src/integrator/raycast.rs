@@ -50,7 +50,7 @@ impl PassRenderer for Prepared<'_> {
             // NRenderer looks through the pixel's lower left corner; a filtered picture looks anywhere in the pixel.
             let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
             let u = match spec.filter {
-                Filter::NRenderer => Vec2::splat(0.5),
+                Filter::NRenderer | Filter::Middle => Vec2::splat(0.5),
                 Filter::Box => Sampler::new(pass.seed, Domain::Camera, pass.index, pixel).next_2d(),
             };
             let ray = world.camera().ray(spec.raster(x, y, u), Vec2::splat(0.5)).ray;

@@ -5,7 +5,7 @@
 //! against each other, and photons for all that is not direct light; where no caustic is in reach, no photon is shot.
 use super::{
     Entry,
-    engine::{Engine, Merge, PARAMS, Techniques},
+    engine::{Engine, Fit, Merge, PARAMS, Techniques},
 };
 
 pub(super) const ENTRY: Entry = Entry {
@@ -13,7 +13,7 @@ pub(super) const ENTRY: Entry = Entry {
     about: "path tracing and photons in one, each where it is better; for everything",
     params: &PARAMS,
     mergeable: true,
-    make: |p| Ok(Box::new(Engine { planned: true, ..Engine::from_params(ON, p)? })),
+    make: |p| Ok(Box::new(Engine { planned: true, fit: Fit::Error, ..Engine::new(ON) }.with_params(p)?)),
 };
 
 pub(super) const ON: Techniques =

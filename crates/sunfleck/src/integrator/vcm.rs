@@ -9,7 +9,7 @@ pub(super) const ENTRY: Entry = Entry {
     about: "vertex connection and merging: every sampler at once; the hardest scenes",
     params: &PARAMS,
     mergeable: true,
-    make: |p| Ok(Box::new(Engine::from_params(ON, p)?)),
+    make: |p| Ok(Box::new(Engine::new(ON).with_params(p)?)),
 };
 
 pub(super) const ON: Techniques =

@@ -21,6 +21,8 @@ pub struct Photon {
     pub scatterings: u16,
     /// Some boundary parted its wavelengths, and its flux is that of the hero alone: see [`crate::spectrum`].
     pub dispersed: bool,
+    /// It came from a mirror or through glass last.
+    pub caustic: bool,
 }
 
 /// Which arrivals are kept. All rules keep photons at connectible surfaces only: nothing could gather them elsewhere.
@@ -142,7 +144,8 @@ impl Visit for Deposit {
         if self.keep.keeps(a) && a.at.gathers {
             self.catch.positions.push(a.at.p);
             let scatterings = a.scatterings.min(u32::from(u16::MAX)) as u16;
-            self.catch.photons.push(Photon { flux: a.beta, wi: a.at.wo, scatterings, dispersed: a.dispersed });
+            let (dispersed, caustic) = (a.dispersed, a.delta && a.scatterings > 0);
+            self.catch.photons.push(Photon { flux: a.beta, wi: a.at.wo, scatterings, dispersed, caustic });
         }
         if self.keep == Keep::Caustic { Step::OnIfDelta } else { Step::On }
     }

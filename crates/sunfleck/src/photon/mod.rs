@@ -16,8 +16,9 @@
 //! - [`ledger`]: what becomes of the light of each lamp, and how much of it any gather reaches;
 //! - [`mod@survey`], [`radii`], [`radius`]: what the camera sees of the scene, and from it the first radius and how it
 //!   shrinks;
-//! - [`uniformity`]: radii fitted to how evenly photons lie.
+//! - [`uniformity`]: radii fitted to how evenly photons lie; [`bandwidth`]: radii fitted to the error they leave.
 pub mod aim;
+pub mod bandwidth;
 pub mod deposit;
 pub mod gather;
 pub mod kernel;
@@ -25,11 +26,13 @@ pub mod ledger;
 pub mod map;
 pub mod radii;
 pub mod radius;
+mod sight;
 pub mod source;
 pub mod survey;
 pub mod uniformity;
 
 pub use aim::Training;
+pub use bandwidth::{After, Bandwidth, Fitted, GatherError};
 pub use deposit::{Catch, Keep, Photon, Shower};
 pub use gather::{CameraEnd, Disc, Gathered, NearestQuery, gather_counted, gather_nearest, gather_within};
 pub use kernel::Kernel;

@@ -1,12 +1,11 @@
 //! How far a gather reaches, over the picture: from what its pixels cover, through mirrors and glass.
+use super::sight::Sight;
 use crate::{
-    bsdf::Transport,
-    camera::Project,
     film::FilmSpec,
     sampler::{Domain, Sampler},
-    scene::{Interaction, MID_SHUTTER, Scene, World},
-    spectrum::{Spectrum, Wavelengths},
-    walk::{Arrival, Limits, Start, Step, Visit, walk},
+    scene::{MID_SHUTTER, Scene, World},
+    spectrum::Wavelengths,
+    walk::Limits,
 };
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -62,12 +61,28 @@ impl Radii {
             widths.get(widths.len() / 2).copied()
         };
         let widths: Vec<Option<f32>> = (0..columns * rows).into_par_iter().map(tile).collect();
-        let mut seen: Vec<f32> = widths.iter().flatten().copied().collect();
-        seen.sort_by(f32::total_cmp);
-        let Some(&median) = seen.get(seen.len() / 2) else { return Self::fixed(fallback) };
+        let seen: Vec<f32> = widths.iter().flatten().copied().collect();
+        if seen.is_empty() {
+            return Self::fixed(fallback);
+        }
+        let median = median(&seen);
         let log = |w: &Option<f32>| (scale * w.unwrap_or(median).clamp(median / SPREAD, median * SPREAD)).ln();
         let log = widths.iter().map(log).collect();
         Self { columns: columns as usize, rows: rows as usize, log, typical: scale * median }.smoothed()
+    }
+    /// The same radius (world units, positive) in each of these tiles.
+    pub fn levelled(mut self, radius: f32) -> Self {
+        self.log.fill(radius.ln());
+        Self { typical: radius, ..self }
+    }
+    /// These radii, or `others` of the same tiles where `take` says so of a tile's middle.
+    pub fn or(mut self, others: &Self, take: impl Fn(Vec2) -> bool) -> Self {
+        for (i, (middle, _)) in self.centres().into_iter().enumerate() {
+            if take(middle) {
+                self.log[i] = others.log[i];
+            }
+        }
+        Self { typical: median(&self.log).exp(), ..self }
     }
     /// Every radius times `factor`.
     pub fn scaled(mut self, factor: f32) -> Self {
@@ -86,20 +101,31 @@ impl Radii {
         let log = self.log.iter().zip(factors).map(|(l, f)| l + f.ln()).collect();
         Self { log, ..self }.smoothed()
     }
+    /// Tiles.
+    pub(super) fn len(&self) -> usize {
+        self.log.len()
+    }
+    /// Tile `i` and its neighbours.
+    pub(super) fn around(&self, i: usize) -> impl Iterator<Item = usize> + use<> {
+        let near = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);
+        let (x, y, columns) = (i % self.columns, i / self.columns, self.columns);
+        let rows = near(y, self.rows);
+        rows.flat_map(move |y| near(x, columns).map(move |x| y * columns + x))
+    }
+    /// The tile that holds `raster`.
+    pub fn tile(&self, raster: Vec2) -> usize {
+        let at = |r: f32, n: usize| ((r * n as f32) as usize).min(n - 1);
+        at(raster.y, self.rows) * self.columns + at(raster.x, self.columns)
+    }
     /// Each tile takes the mean of itself and its neighbours: what a handful of paths say of one tile is noisy.
     fn smoothed(self) -> Self {
-        let near = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);
         let mean = |i: usize| {
-            let (x, y) = (i % self.columns, i / self.columns);
-            let around = near(y, self.rows).flat_map(|y| near(x, self.columns).map(move |x| (x, y)));
-            let (sum, n) = around.fold((0.0, 0.0), |(s, n), (x, y)| (s + self.log[y * self.columns + x], n + 1.0));
-            sum / n
+            let (sum, n) = self.around(i).fold((0.0, 0.0), |(s, n), j| (s + self.log[j], n + 1.0));
+            // A narrow one is so for a reason.
+            self.log[i].min(sum / n)
         };
         let log: Vec<f32> = (0..self.log.len()).map(mean).collect();
-        let mut sorted = log.clone();
-        sorted.sort_by(f32::total_cmp);
-        let typical = sorted[sorted.len() / 2].exp();
-        Self { log, typical, ..self }
+        Self { typical: median(&log).exp(), log, ..self }
     }
     /// The first radius (world units) at `raster` (see [`crate::camera`]): smooth over the picture, held at its edges.
     #[inline]
@@ -121,40 +147,28 @@ impl Radii {
     }
 }
 
+/// The value in the middle of `values`, of which there are some.
+fn median(values: &[f32]) -> f32 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f32::total_cmp);
+    sorted[sorted.len() / 2]
+}
+
 /// Width (world units) across the path of what a pixel covers around `raster`: from two twins of a camera path, one pixel
 /// aside and one below, that make the same choices at mirrors and glass. That is a ray differential (Igehy 1999) by
 /// finite differences; where the twins part ways, the distance along the path stands in.
 fn footprint(world: &World, spec: FilmSpec, limits: Limits, raster: Vec2, mut sampler: Sampler) -> Option<f32> {
     let u_lens = sampler.next_2d();
-    let follow = |raster: Vec2| {
-        let camera = world.camera().ray(raster, u_lens);
-        let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
-        let mut first = First { found: None };
-        walk(world, &start, &limits, &mut sampler.clone(), &mut first);
-        first.found.map(|(at, travelled)| (at, camera.spread.of_pixel(spec.pixels()).width_at(travelled)))
-    };
-    let (at, width) = follow(raster)?;
+    let follow = |raster: Vec2| Sight::find(world, &limits, raster, u_lens, &mut sampler.clone());
+    let seen = follow(raster)?;
+    let (at, width) = (seen.at, seen.width(spec));
     let pixel = Vec2::new(1.0 / spec.width as f32, 1.0 / spec.height as f32);
     let aside = |offset: Vec2| -> Option<Vec3> {
-        let (twin, _) = follow(raster + offset)?;
+        let twin = follow(raster + offset)?.at;
         (twin.ng.dot(at.ng) > 0.5).then(|| twin.p - at.p)
     };
     let area = aside(Vec2::new(pixel.x, 0.0)).zip(aside(Vec2::new(0.0, pixel.y))).map(|(x, y)| x.cross(y).length());
     let across = area.map_or(width, |a| (a * at.true_cos(at.wo)).sqrt());
     let width = across.clamp(width / LENS, width * LENS);
     (width > 0.0 && width.is_finite()).then_some(width)
-}
-
-struct First {
-    found: Option<(Interaction, f32)>,
-}
-
-impl Visit for First {
-    fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
-        if !a.at.is_connectible() {
-            return Step::OnIfDelta;
-        }
-        self.found = Some((*a.at, a.travelled));
-        Step::Stop
-    }
 }

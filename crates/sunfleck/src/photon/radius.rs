@@ -31,6 +31,16 @@ impl Schedule {
     pub fn radius(self, index: u64) -> f32 {
         self.squared(index).sqrt() as f32
     }
+    /// What the mean of `passes` passes has of the variance of the first pass, and of its bias, if those go as one over the
+    /// squared radius and as the squared radius.
+    pub fn of_mean(self, passes: u64) -> (f64, f64) {
+        let n = passes as f64;
+        let (variance, bias) = (0..passes).fold((0.0, 0.0), |(variance, bias), i| {
+            let r2 = self.squared(i);
+            (variance + 1.0 / r2, bias + r2)
+        });
+        (variance / (n * n), bias / n)
+    }
     /// Γ(i + 1 + α) / Γ(i + 2), up to a relative error of about i⁻⁴ / 100 (Stirling's series, DLMF 5.11.1).
     fn gamma_ratio(self, i: u64) -> f64 {
         let (a, b) = (i as f64 + 1.0 + self.alpha, i as f64 + 2.0);

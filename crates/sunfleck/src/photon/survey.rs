@@ -1,12 +1,11 @@
 //! What the camera sees: a sample of the places where gathers will happen, taken before the first pass.
+use super::sight::Sight;
 use crate::{
-    bsdf::Transport,
-    camera::{Project, Spread},
     film::FilmSpec,
     sampler::{Domain, Sampler},
     scene::{MID_SHUTTER, Scene},
-    spectrum::{Spectrum, Wavelengths},
-    walk::{Arrival, Limits, Start, Step, Visit, walk},
+    spectrum::Wavelengths,
+    walk::Limits,
 };
 use glam::Vec3;
 use rayon::prelude::*;
@@ -29,26 +28,9 @@ pub fn survey(scene: &Scene, spec: FilmSpec, limits: &Limits, seed: u64) -> Vec<
     let world = scene.world(Wavelengths::Rgb, MID_SHUTTER);
     let look = |index| {
         let mut sampler = Sampler::new(seed, Domain::Prepare, u64::MAX, index);
-        let camera = world.camera().ray(sampler.next_2d(), sampler.next_2d());
-        let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
-        let mut first = First { pixel: camera.spread.of_pixel(spec.pixels()), found: None };
-        walk(&world, &start, limits, &mut sampler, &mut first);
-        first.found
+        let (raster, u_lens) = (sampler.next_2d(), sampler.next_2d());
+        let seen = Sight::find(&world, limits, raster, u_lens, &mut sampler)?;
+        Some(Sighting { p: seen.at.p, width: seen.width(spec) })
     };
     (0..PATHS).into_par_iter().filter_map(look).collect()
-}
-
-struct First {
-    pixel: Spread,
-    found: Option<Sighting>,
-}
-
-impl Visit for First {
-    fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
-        if !a.at.is_connectible() {
-            return Step::OnIfDelta;
-        }
-        self.found = Some(Sighting { p: a.at.p, width: self.pixel.width_at(a.travelled) });
-        Step::Stop
-    }
 }

@@ -2,15 +2,13 @@
 //!
 //! After Lin et al. 2020, "CPPM: Chi-squared Progressive Photon Mapping", who test each gather's photons for an even spread.
 //! Here the test belongs to a training, tile by tile of the picture, and what it finds is kept: passes stay pure functions.
-use super::{Keep, Radii, RadiusMap, Shower, Source};
+use super::{Keep, Radii, RadiusMap, Shower, Source, sight::Sight};
 use crate::{
-    bsdf::Transport,
-    camera::Project,
     math::Frame,
     sampler::{Domain, Sampler},
     scene::{Interaction, MID_SHUTTER, Scene, World},
-    spectrum::{Spectrum, Wavelengths},
-    walk::{Arrival, Limits, Start, Step, Visit, walk},
+    spectrum::Wavelengths,
+    walk::Limits,
 };
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
@@ -93,12 +91,9 @@ impl Evenness<'_> {
         for g in 0..GATHERS {
             let mut sampler = Sampler::new(self.seed, Domain::Prepare, u64::MAX - 2, n * GATHERS + g);
             let raster = tile.0 + (sampler.next_2d() - 0.5) * tile.1;
-            let camera = world.camera().ray(raster, sampler.next_2d());
-            let beta = Spectrum::ONE;
-            let start = Start { ray: camera.ray, beta, mode: Transport::Radiance, dispersed: false };
-            let mut first = First { found: None };
-            walk(world, &start, &self.limits, &mut sampler, &mut first);
-            let Some(parts) = first.found.and_then(|at| count(map, &at, radius)) else { continue };
+            let u_lens = sampler.next_2d();
+            let seen = Sight::find(world, &self.limits, raster, u_lens, &mut sampler);
+            let Some(parts) = seen.and_then(|s| count(map, &s.at, radius)) else { continue };
             let expected = f64::from(parts.iter().sum::<u32>()) / PARTS as f64;
             chi2 += parts.iter().map(|n| (f64::from(*n) - expected).powi(2) / expected).sum::<f64>();
             degrees += PARTS as f64 - 1.0;
@@ -125,20 +120,6 @@ fn count(map: &RadiusMap<Spot>, at: &Interaction, radius: f32) -> Option<[u32; P
 fn chi2_quantile(k: f64) -> f64 {
     let v = 2.0 / (9.0 * k);
     k * (1.0 - v + 1.644_854 * v.sqrt()).powi(3)
-}
-
-struct First {
-    found: Option<Interaction>,
-}
-
-impl Visit for First {
-    fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
-        if !a.at.is_connectible() {
-            return Step::OnIfDelta;
-        }
-        self.found = Some(*a.at);
-        Step::Stop
-    }
 }
 
 #[cfg(test)]

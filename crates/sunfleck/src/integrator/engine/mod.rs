@@ -22,13 +22,16 @@ mod tests;
 mod track;
 mod weights;
 
-pub use techniques::{Heuristic, Merge, Technique, Techniques};
+pub use techniques::{Fit, Heuristic, Merge, Technique, Techniques};
 
 use super::{Integrator, ParamError, ParamInfo, Params, Pass, PassRenderer, eye_ray::EyeRay};
 use crate::{
     camera::{Project, Spread},
     film::{FilmSpec, PassImage},
-    photon::{Audit, Evenness, Kernel, Radii, RadiusMap, Schedule, Source, Training},
+    photon::{
+        After, Audit, Bandwidth, Evenness, Fitted, Keep, Kernel, Radii, RadiusMap, Schedule, Source, Training,
+        bandwidth,
+    },
     scene::{MID_SHUTTER, Scene, World},
     spectrum::Wavelengths,
     walk::{Limits, walk, walk_evenly},
@@ -54,8 +57,8 @@ pub struct Engine {
     pub radius: Option<f32>,
     /// First radius over what pixels cover, or over `radius`.
     pub radius_scale: f32,
-    /// Whether a training fits the first radius to how evenly photons lie.
-    pub fit: bool,
+    /// How a training fits the first radii to the light.
+    pub fit: Fit,
     /// How the radius shrinks.
     pub schedule: Schedule,
     /// What a photon counts.
@@ -83,7 +86,10 @@ pub(super) const PARAMS: [ParamInfo; 9] = [
     ParamInfo { name: "photons", about: "light paths a pass, 1 to 1e9 (default: by the size of the picture)" },
     ParamInfo { name: "radius", about: "first radius, world units > 0 (default: from what pixels cover)" },
     ParamInfo { name: "radius-scale", about: "first radius over that, 1e-6 to 1e6 (default 1)" },
-    ParamInfo { name: "fit", about: "fit the first radius to the light: on or off (default off)" },
+    ParamInfo {
+        name: "fit",
+        about: "fit the first radius to the light: off, even or error (default error for unified)",
+    },
     ParamInfo { name: "alpha", about: "how the radius shrinks, 0.01 to 1 (default 2/3; 1 keeps it)" },
     ParamInfo { name: "kernel", about: "constant, cone or epanechnikov (default epanechnikov)" },
     ParamInfo {
@@ -106,7 +112,7 @@ impl Engine {
             paths: None,
             radius: None,
             radius_scale: 1.0,
-            fit: false,
+            fit: Fit::Off,
             schedule: Schedule::default(),
             kernel: Kernel::Epanechnikov,
             memory: 2_000_000_000,
@@ -115,9 +121,9 @@ impl Engine {
             planned: false,
         }
     }
-    /// With named settings, [`PARAMS`] and those common to all algorithms.
-    pub(super) fn from_params(on: Techniques, p: &mut Params) -> Result<Self, ParamError> {
-        let d = Self::new(on);
+    /// With named settings, [`PARAMS`] and those common to all algorithms; what is not named stays.
+    pub(super) fn with_params(self, p: &mut Params) -> Result<Self, ParamError> {
+        let d = self;
         let paths = p.count("photons", 0, 1..=1_000_000_000)?;
         let radius = p.number("radius", 0.0, f64::from(f32::MIN_POSITIVE)..=1e30)? as f32;
         Ok(Self {
@@ -125,7 +131,7 @@ impl Engine {
             paths: (paths > 0).then_some(paths),
             radius: (radius > 0.0).then_some(radius),
             radius_scale: p.number("radius-scale", 1.0, 1e-6..=1e6)? as f32,
-            fit: p.switch("fit", d.fit)?,
+            fit: Fit::ALL[p.word("fit", d.fit as usize, &Fit::WORDS)?],
             schedule: Schedule { alpha: p.number("alpha", d.schedule.alpha, 0.01..=1.0)? },
             kernel: Kernel::ALL[p.word("kernel", d.kernel as usize, &Kernel::WORDS)?],
             memory: p.count("memory", d.memory, 1_000_000..=1_000_000_000_000_000)?,
@@ -152,29 +158,51 @@ impl Integrator for Engine {
         // The typical radius is PIXELS pixels wide; how many of those make one degree?
         let middle = scene.world(Wavelengths::Rgb, MID_SHUTTER).camera().ray(Vec2::splat(0.5), Vec2::splat(0.5)).spread;
         let degree = seen.typical() / PIXELS * pixels_of_degree(middle, spec);
+        let radii = self.radius.map_or(seen.clone(), |r| seen.levelled(r)).scaled(self.radius_scale);
         let mut prepared = Prepared {
             scene,
             engine: self,
-            radii: self.radius.map_or(seen, Radii::fixed).scaled(self.radius_scale),
+            radii,
             source: self.source(scene, spec, seed),
             paths: if self.on.need_light_paths() { paths } else { 0 },
             parts: 1,
             same_place: std::f32::consts::PI * degree * degree,
             plan: None,
         };
-        if self.fit && prepared.paths > 0 {
-            let (source, limits, paths) = (&prepared.source, self.limits, prepared.paths.div_ceil(FITTING_SHARE));
-            prepared.radii = prepared.radii.clone().fitted(scene, &Evenness { source, limits, seed, paths });
-        }
+        let fitted = prepared.fit(spec, seed);
         if self.planned {
-            let plan = Plan::train(&prepared, spec, seed);
-            if plan.needs() == Merge::Off {
-                prepared.paths = 0;
-            }
-            prepared.plan = Some(plan);
+            Plan::train(&mut prepared, fitted.as_ref(), spec, seed);
+        } else if let Some(fitted) = fitted {
+            let after = After::new(bandwidth::PASSES, self.schedule);
+            prepared.radii = fitted.by(|tile, _| fitted.best(0, tile, after));
         }
         prepared.parts = prepared.count_parts(spec, seed);
         Box::new(prepared)
+    }
+}
+
+impl Prepared<'_> {
+    /// Fits radii to the light; `Some` with what is known of their errors.
+    fn fit(&mut self, spec: FilmSpec, seed: u64) -> Option<Fitted> {
+        let (scene, engine, source) = (self.scene, self.engine, &self.source);
+        if self.paths == 0 || !engine.on.merge.is_on() {
+            return None;
+        }
+        let limits = engine.limits;
+        match engine.fit {
+            Fit::Off => None,
+            Fit::Even => {
+                let paths = self.paths.div_ceil(FITTING_SHARE);
+                self.radii = self.radii.clone().fitted(scene, &Evenness { source, limits, seed, paths });
+                None
+            }
+            Fit::Error => {
+                let keep = if engine.on.merge.of_direct() { Keep::All } else { Keep::Scattered };
+                let (kernel, schedule, paths) = (engine.kernel, engine.schedule, self.paths);
+                let bandwidth = Bandwidth { source, spec, limits, keep, kernel, schedule, seed, paths };
+                Some(bandwidth.fit(scene, self.radii.clone()))
+            }
+        }
     }
 }
 

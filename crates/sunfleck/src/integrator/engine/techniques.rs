@@ -112,6 +112,25 @@ impl Heuristic {
     }
 }
 
+/// How the first radii are fitted to the light before the first pass.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Fit {
+    /// They are what they are.
+    #[default]
+    Off,
+    /// To how evenly photons lie (see [`crate::photon::uniformity`]).
+    Even,
+    /// To the error that they leave (see [`crate::photon::bandwidth`]).
+    Error,
+}
+
+impl Fit {
+    /// Words for settings, in the order of the variants.
+    pub const WORDS: [&str; 3] = ["off", "even", "error"];
+    /// By place in [`Fit::WORDS`].
+    pub const ALL: [Self; 3] = [Self::Off, Self::Even, Self::Error];
+}
+
 /// A sampler by name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Technique {
