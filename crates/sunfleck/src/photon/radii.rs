@@ -159,7 +159,7 @@ fn median(values: &[f32]) -> f32 {
 /// finite differences; where the twins part ways, the distance along the path stands in.
 fn footprint(world: &World, spec: FilmSpec, limits: Limits, raster: Vec2, mut sampler: Sampler) -> Option<f32> {
     let u_lens = sampler.next_2d();
-    let follow = |raster: Vec2| Sight::find(world, &limits, raster, u_lens, &mut sampler.clone());
+    let follow = |raster: Vec2| Sight::find(world, limits, raster, u_lens, &mut sampler.clone());
     let seen = follow(raster)?;
     let (at, width) = (seen.at, seen.width(spec));
     let pixel = Vec2::new(1.0 / spec.width as f32, 1.0 / spec.height as f32);

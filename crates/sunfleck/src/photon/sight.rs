@@ -28,7 +28,7 @@ impl Sight {
     /// Follows the path that begins at `raster` through the lens at `u_lens`; `None` if it meets no such surface.
     pub(super) fn find(
         world: &World,
-        limits: &Limits,
+        limits: Limits,
         raster: Vec2,
         u_lens: Vec2,
         sampler: &mut Sampler,
@@ -36,7 +36,7 @@ impl Sight {
         let camera = world.camera().ray(raster, u_lens);
         let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
         let mut first = First { spread: camera.spread, found: None };
-        walk(world, &start, limits, sampler, &mut first);
+        walk(world, &start, &limits, sampler, &mut first);
         first.found
     }
     /// Width (world units) of a pixel at the distance travelled.

@@ -29,7 +29,7 @@ pub fn survey(scene: &Scene, spec: FilmSpec, limits: &Limits, seed: u64) -> Vec<
     let look = |index| {
         let mut sampler = Sampler::new(seed, Domain::Prepare, u64::MAX, index);
         let (raster, u_lens) = (sampler.next_2d(), sampler.next_2d());
-        let seen = Sight::find(&world, limits, raster, u_lens, &mut sampler)?;
+        let seen = Sight::find(&world, *limits, raster, u_lens, &mut sampler)?;
         Some(Sighting { p: seen.at.p, width: seen.width(spec) })
     };
     (0..PATHS).into_par_iter().filter_map(look).collect()

@@ -92,7 +92,7 @@ impl Evenness<'_> {
             let mut sampler = Sampler::new(self.seed, Domain::Prepare, u64::MAX - 2, n * GATHERS + g);
             let raster = tile.0 + (sampler.next_2d() - 0.5) * tile.1;
             let u_lens = sampler.next_2d();
-            let seen = Sight::find(world, &self.limits, raster, u_lens, &mut sampler);
+            let seen = Sight::find(world, self.limits, raster, u_lens, &mut sampler);
             let Some(parts) = seen.and_then(|s| count(map, &s.at, radius)) else { continue };
             let expected = f64::from(parts.iter().sum::<u32>()) / PARTS as f64;
             chi2 += parts.iter().map(|n| (f64::from(*n) - expected).powi(2) / expected).sum::<f64>();

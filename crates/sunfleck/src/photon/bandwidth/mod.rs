@@ -111,7 +111,9 @@ const SETS: [u64; 2] = [4, 6];
 /// narrow.
 const ENOUGH: f64 = 32.0;
 /// Radii that the search begins with, in widths of a pixel.
-const WIDTHS: [f32; 2] = [1.0, 32.0];
+const WIDTHS: [f32; 2] = [1.0, 8.0];
+/// The widest it can end with.
+const WIDEST: f32 = 32.0;
 /// Light paths of a set: at least, and in the fit this part of a pass.
 const LEAST: u64 = 4096;
 const SHARE: u64 = 4;
@@ -178,6 +180,6 @@ impl Bandwidth<'_> {
                 break;
             }
         }
-        factor
+        factor.min(WIDEST / width)
     }
 }

@@ -31,7 +31,7 @@ impl Spots {
             let mut sampler = Sampler::new(how.seed, Domain::Prepare, u64::MAX - 3, n);
             let raster = middle + (sampler.next_2d() - 0.5) * size;
             let u_lens = sampler.next_2d();
-            let seen = Sight::find(world, &how.limits, raster, u_lens, &mut sampler)?;
+            let seen = Sight::find(world, how.limits, raster, u_lens, &mut sampler)?;
             Some(Spot { seen, tile, radius: radii.at(raster) })
         };
         (0..centres.len() as u64 * count).into_par_iter().filter_map(find).collect()
