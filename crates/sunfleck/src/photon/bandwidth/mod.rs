@@ -56,7 +56,7 @@ pub struct GatherError {
 
 /// The price of errors after some passes.
 ///
-/// It is the mean squared error of a pixel, and [`BLOCKS`] times that of the mean of a block of pixels: a blotch is seen where
+/// It is the mean squared error of a pixel, and several times that of the mean of a block of pixels: a blotch is seen where
 /// as much noise is not. Blur is shared by a block, and so is the noise of gathers that are as wide.
 #[derive(Clone, Copy, Debug)]
 pub struct After {
@@ -112,8 +112,9 @@ const SETS: [u64; 2] = [4, 6];
 const ENOUGH: f64 = 32.0;
 /// Radii that the search begins with, in widths of a pixel.
 const WIDTHS: [f32; 2] = [1.0, 8.0];
-/// The widest it can end with.
+/// The widest it can end with: at most so many, and in small pictures this part of the shorter side.
 const WIDEST: f32 = 32.0;
+const PART: f32 = 1.0 / 16.0;
 /// Light paths of a set: at least, and in the fit this part of a pass.
 const LEAST: u64 = 4096;
 const SHARE: u64 = 4;
@@ -180,6 +181,8 @@ impl Bandwidth<'_> {
                 break;
             }
         }
-        factor.min(WIDEST / width)
+        let side = self.spec.width.min(self.spec.height) as f32;
+        let widest = (PART * side).clamp(WIDTHS[0], WIDEST);
+        factor.min(widest / width)
     }
 }
