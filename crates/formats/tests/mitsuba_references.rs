@@ -3,12 +3,15 @@
 //!
 //! Each value must be as near to the reference as the noise of both asks for, at the level that Mitsuba's tests use: of
 //! pictures that are right, one in a hundred has a value beyond.
+mod shared;
+
 use formats::compare::{Noisy, ZTest, z_test};
 use formats::image::{RgbImage32, read_image};
 use formats::{LoadOptions, load};
 use glam::Vec3;
+use shared::shared;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use sunfleck::film::{FilmSpec, Filter};
 use sunfleck::integrator::{Params, find};
 use sunfleck::render::{Budget, Settings, render};
@@ -22,14 +25,8 @@ const LEAST_VARIANCE: f32 = 1e-4;
 
 /// Rendered by path tracing with next-event estimation; the outcome, or `None` (with a note) where the files are not there.
 fn against_reference(scene: &str, reference: &str, passes: u64) -> Option<ZTest> {
-    let root = std::env::var_os("SUNFLECK_SHARED")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
-    let folder = root.join("scenes/mitsuba3-test-refs/tests/scenes");
-    let (scene, reference) = (folder.join(scene), folder.join(reference));
-    if !scene.is_file() {
-        eprintln!("skipped: {} is not there (set SUNFLECK_SHARED)", scene.display());
-        return None;
-    }
+    let in_folder = |name| shared(&format!("scenes/mitsuba3-test-refs/tests/scenes/{name}"));
+    let (scene, reference) = (in_folder(scene)?, in_folder(reference)?);
     let mut loaded = load(std::slice::from_ref(&scene), &LoadOptions::default()).expect("the scene loads");
     let aspect = loaded.camera.aspect.expect("a sensor");
     loaded.builder.camera(loaded.camera.build(aspect).expect("the camera"));

@@ -2,12 +2,14 @@
 //!
 //! Few passes, so that the suite stays quick: means are held to half a percent or one, blocks of 50 pixels to a few. The
 //! long comparison, with 4,096 samples a pixel, is kept in `benches/runs`.
+mod shared;
+
 use formats::compare::{Channel, CompareOptions, Comparison, compare};
 use formats::image::{RgbImage32, read_image};
 use formats::scn::ScnOptions;
 use formats::{LoadOptions, load};
+use shared::shared;
 use std::ops::ControlFlow;
-use std::path::{Path, PathBuf};
 use sunfleck::film::{FilmSpec, Filter};
 use sunfleck::integrator::{Params, find};
 use sunfleck::render::{Budget, Settings, render};
@@ -27,14 +29,8 @@ struct Case {
 
 /// The comparison, or `None` (with a note) where the files are not there.
 fn against_reference(case: &Case) -> Option<Comparison> {
-    let root = std::env::var_os("SUNFLECK_SHARED")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
-    let scene = root.join("scenes/nrenderer/stock").join(case.scene);
-    let reference = root.join("references/nrenderer").join(case.reference);
-    if !scene.is_file() || !reference.is_file() {
-        eprintln!("skipped: {} is not there (set SUNFLECK_SHARED)", reference.display());
-        return None;
-    }
+    let scene = shared(&format!("scenes/nrenderer/stock/{}", case.scene))?;
+    let reference = shared(&format!("references/nrenderer/{}", case.reference))?;
     let options = LoadOptions { scn: ScnOptions { compat: true, ..ScnOptions::default() }, ..LoadOptions::default() };
     let mut loaded = load(&[scene], &options).expect("a stock scene loads");
     loaded.builder.camera(loaded.camera.build(1.0).expect("the default camera"));

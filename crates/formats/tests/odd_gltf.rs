@@ -1,22 +1,13 @@
 //! glTF files that other people made to be odd. Skipped where they are not at hand.
 
+mod shared;
+
 use formats::gltf::check;
 use formats::image::read_image_bytes;
 use formats::{Error, LoadOptions, Loaded, load};
+use shared::shared;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-
-/// A folder of the shared files, or `None` (with a note) if there is none.
-fn shared(folder: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("SUNFLECK_SHARED")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
-    let path = root.join(folder);
-    if !path.is_dir() {
-        eprintln!("skipped: {} is not there (set SUNFLECK_SHARED)", path.display());
-        return None;
-    }
-    Some(path)
-}
 
 /// All glTF files below a folder, in order.
 fn scenes_below(folder: &Path) -> Vec<PathBuf> {

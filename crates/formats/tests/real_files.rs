@@ -1,24 +1,15 @@
 //! Files that other people made: each gives a scene or picture, or a clear error. Skipped where they are not at hand.
 
+mod shared;
+
 use formats::image::read_image;
 use formats::pbrt::write::{Written, write};
 use formats::scn::ScnOptions;
 use formats::{Diagnostic, Error, LoadOptions, Loaded, load};
+use shared::shared;
 use std::path::{Path, PathBuf};
 use sunfleck::film::{FilmSpec, Filter, PassImage};
 use sunfleck::integrator::{Params, Pass, find};
-
-/// A folder of the shared files, or `None` (with a note) if there is none.
-fn shared(folder: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("SUNFLECK_SHARED")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared"), PathBuf::from);
-    let path = root.join(folder);
-    if !path.is_dir() {
-        eprintln!("skipped: {} is not there (set SUNFLECK_SHARED)", path.display());
-        return None;
-    }
-    Some(path)
-}
 
 /// All files below a folder, in order.
 fn files_below(folder: &Path) -> Vec<PathBuf> {

@@ -2,11 +2,11 @@
 //!
 //! ```text
 //! pip install embreex
-//! cargo bench -p accel --bench embree -- [--library FILE] [--scene ball|clutter] [--reps N] [--quality high] [--level N]
+//! cargo bench -p accel --bench embree -- [--embree FILE] [--scene ball|clutter] [--reps N] [--quality high] [--level N]
 //!     [--side N]
 //! ```
 //!
-//! Without `--library` the folder of the Python package `embreex` is searched, and if there is no Embree the program
+//! Without `--embree` the folder of the Python package `embreex` is searched, and if there is no Embree the program
 //! says so and ends well.
 
 mod ffi;
@@ -23,7 +23,7 @@ use std::{
 };
 
 struct Options {
-    library: Option<PathBuf>,
+    embree: Option<PathBuf>,
     scene: Option<String>,
     reps: usize,
     quality: Quality,
@@ -32,13 +32,13 @@ struct Options {
 }
 
 fn options() -> Options {
-    let mut options = Options { library: None, scene: None, reps: 3, quality: Quality::Default, level: 8, side: 1024 };
+    let mut options = Options { embree: None, scene: None, reps: 3, quality: Quality::Default, level: 8, side: 1024 };
     let mut args = std::env::args().skip(1);
     while let Some(arg) = args.next() {
         let mut value = || args.next().unwrap_or_else(|| panic!("{arg} wants a value"));
         match arg.as_str() {
             "--bench" => {}
-            "--library" => options.library = Some(value().into()),
+            "--embree" => options.embree = Some(value().into()),
             "--scene" => options.scene = Some(value()),
             "--reps" => options.reps = value().parse().expect("--reps wants a number"),
             "--level" => options.level = value().parse().expect("--level wants a number"),
@@ -54,8 +54,8 @@ fn options() -> Options {
 
 fn main() {
     let options = options();
-    let Some(library) = options.library.clone().or_else(find_embree) else {
-        println!("Embree 4 was not found; install it with `pip install embreex` or name it with --library");
+    let Some(library) = options.embree.clone().or_else(find_embree) else {
+        println!("Embree 4 was not found; install it with `pip install embreex` or name it with --embree");
         return;
     };
     for (name, make) in [
