@@ -1,6 +1,6 @@
 //! A surface that swallows all light.
 use super::{BsdfSample, Lookup, Model, Scatter, TextureId, Transport};
-use crate::{math::Local, spectrum::Spectrum};
+use crate::math::Local;
 use glam::Vec2;
 
 /// The body of a light, or a beam stop.
@@ -26,19 +26,7 @@ pub struct Black;
 
 impl Scatter for Black {
     #[inline]
-    fn eval(&self, _: Local, _: Local, _: Transport) -> Spectrum {
-        Spectrum::BLACK
-    }
-    #[inline]
-    fn pdf(&self, _: Local, _: Local) -> f32 {
-        0.0
-    }
-    #[inline]
     fn sample(&self, _: Local, _: f32, _: Vec2, _: Transport) -> Option<BsdfSample> {
         None
-    }
-    #[inline]
-    fn is_connectible(&self) -> bool {
-        false
     }
 }

@@ -48,19 +48,7 @@ impl Conductor {
 
 impl Scatter for Conductor {
     #[inline]
-    fn eval(&self, _: Local, _: Local, _: Transport) -> Spectrum {
-        Spectrum::BLACK
-    }
-    #[inline]
-    fn pdf(&self, _: Local, _: Local) -> f32 {
-        0.0
-    }
-    #[inline]
     fn sample(&self, wo: Local, _: f32, _: Vec2, _: Transport) -> Option<BsdfSample> {
         BsdfSample::specular(wo, self.fresnel(wo.abs_cos_theta()))
-    }
-    #[inline]
-    fn is_connectible(&self) -> bool {
-        false
     }
 }

@@ -97,14 +97,6 @@ fn beyond(wo: Local, eta: f32) -> f32 {
 
 impl Scatter for Dielectric {
     #[inline]
-    fn eval(&self, _: Local, _: Local, _: Transport) -> Spectrum {
-        Spectrum::BLACK
-    }
-    #[inline]
-    fn pdf(&self, _: Local, _: Local) -> f32 {
-        0.0
-    }
-    #[inline]
     fn sample(&self, wo: Local, u_lobe: f32, _: Vec2, mode: Transport) -> Option<BsdfSample> {
         let eta = self.eta_beyond(wo);
         let boundary = fresnel::dielectric(wo.abs_cos_theta(), eta);
@@ -128,9 +120,5 @@ impl Scatter for Dielectric {
         let wi = Local(Vec3::new(-wo.0.x / eta, -wo.0.y / eta, -boundary.cos_t.copysign(wo.0.z)).normalize());
         let carries = wo.cos_theta() * wi.cos_theta() < 0.0 && !weight.is_black();
         carries.then_some(BsdfSample { wi, weight, pdf: 1.0 - prob, delta: true, eta, disperses })
-    }
-    #[inline]
-    fn is_connectible(&self) -> bool {
-        false
     }
 }

@@ -32,19 +32,7 @@ pub struct Mirror {
 
 impl Scatter for Mirror {
     #[inline]
-    fn eval(&self, _: Local, _: Local, _: Transport) -> Spectrum {
-        Spectrum::BLACK
-    }
-    #[inline]
-    fn pdf(&self, _: Local, _: Local) -> f32 {
-        0.0
-    }
-    #[inline]
     fn sample(&self, wo: Local, _: f32, _: Vec2, _: Transport) -> Option<BsdfSample> {
         BsdfSample::specular(wo, self.reflect)
-    }
-    #[inline]
-    fn is_connectible(&self) -> bool {
-        false
     }
 }

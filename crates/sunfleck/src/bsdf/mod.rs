@@ -103,14 +103,24 @@ impl BsdfSample {
 
 /// The contract of every closure; checked for each model in `tests/bsdf_contract`.
 pub trait Scatter {
-    /// `f(wo, wi)` in 1/sr, *without* the cosine. Zero for delta lobes.
-    fn eval(&self, wo: Local, wi: Local, mode: Transport) -> Spectrum;
-    /// Density (1/sr) with which [`Scatter::sample`] draws `wi` given `wo`. Zero for delta lobes.
-    fn pdf(&self, wo: Local, wi: Local) -> f32;
+    /// `f(wo, wi)` in 1/sr, *without* the cosine. Zero for delta lobes, and so for a closure that has no others and says nothing
+    /// here.
+    #[inline]
+    fn eval(&self, _wo: Local, _wi: Local, _mode: Transport) -> Spectrum {
+        Spectrum::BLACK
+    }
+    /// Density (1/sr) with which [`Scatter::sample`] draws `wi` given `wo`. Zero for delta lobes, as [`Scatter::eval`].
+    #[inline]
+    fn pdf(&self, _wo: Local, _wi: Local) -> f32 {
+        0.0
+    }
     /// Draws `wi`; `None` when the sample carries nothing. `u_lobe` picks the lobe.
     fn sample(&self, wo: Local, u_lobe: f32, u: Vec2, mode: Transport) -> Option<BsdfSample>;
     /// True if some lobe has a density, so that photons may be stored and lights connected here.
-    fn is_connectible(&self) -> bool;
+    #[inline]
+    fn is_connectible(&self) -> bool {
+        false
+    }
 }
 
 /// A material as the scene stores it.

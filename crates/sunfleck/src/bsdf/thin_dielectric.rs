@@ -46,14 +46,6 @@ pub struct ThinDielectric {
 
 impl Scatter for ThinDielectric {
     #[inline]
-    fn eval(&self, _: Local, _: Local, _: Transport) -> Spectrum {
-        Spectrum::BLACK
-    }
-    #[inline]
-    fn pdf(&self, _: Local, _: Local) -> f32 {
-        0.0
-    }
-    #[inline]
     fn sample(&self, wo: Local, u_lobe: f32, _: Vec2, _: Transport) -> Option<BsdfSample> {
         let cos = wo.abs_cos_theta();
         let reflected = self.eta.map(|eta| {
@@ -69,9 +61,5 @@ impl Scatter for ThinDielectric {
         }
         let weight = t / (1.0 - prob);
         BsdfSample::specular(wo, weight).map(|s| BsdfSample { wi: Local(-wo.0), pdf: 1.0 - prob, ..s })
-    }
-    #[inline]
-    fn is_connectible(&self) -> bool {
-        false
     }
 }

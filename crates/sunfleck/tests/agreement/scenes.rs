@@ -1,15 +1,16 @@
 //! Tiny scenes, each with one thing that algorithms get wrong.
 mod covered;
+mod lights;
 mod moving;
 
-use glam::{Affine3A, Quat, Vec2, Vec3};
+use glam::{Affine3A, Quat, Vec3};
 use sunfleck::{
     bsdf::{
         ConductorMaterial, CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, MirrorMaterial, PhongMaterial,
         RoughConductorMaterial, RoughDielectricMaterial,
     },
     camera::{Orthographic, Perspective, Spherical, Unrolling, View},
-    light::{DirectionalLight, EnvironmentLight, PointLight, Sides, SpotLight},
+    light::{PointLight, Sides},
     scene::{MaterialId, Scene, SceneBuilder, SurfaceDef},
     shape::{Mesh, Parallelogram, Shape, Sphere},
     spectrum::Ior,
@@ -59,16 +60,16 @@ pub(crate) const SCENES: &[TinyScene] = &[
     tiny("thin_lens", "depth of field", NONE, thin_lens),
     tiny("parallel_rays", "an orthographic camera with lenses", NONE, parallel_rays),
     tiny("all_around", "a spherical camera", NONE, all_around),
-    tiny("mesh_light", "a lamp of unlike triangles", NONE, mesh_light),
-    tiny("sphere_light", "a shining ball", NONE, sphere_light),
-    tiny("spot_light", "a spot light", NONE, spot_light),
-    tiny("directional_light", "a light from infinity", NONE, directional_light),
-    tiny("environment_light", "a sky with a bright patch", NONE, environment_light),
+    tiny("mesh_light", "a lamp of unlike triangles", NONE, lights::mesh_light),
+    tiny("sphere_light", "a shining ball", NONE, lights::sphere_light),
+    tiny("spot_light", "a spot light", NONE, lights::spot_light),
+    tiny("directional_light", "a light from infinity", NONE, lights::directional_light),
+    tiny("environment_light", "a sky with a bright patch", NONE, lights::environment_light),
     tiny("rough_glass", "frosted glass", NONE, rough_glass),
     tiny("rough_metal", "rough gold", NONE, rough_metal),
     tiny("glossy_paint", "highlights on paint", NONE, glossy_paint),
     tiny("textures", "a texture", NONE, textures),
-    tiny("unlike_lights", "lights of unlike power", NONE, unlike_lights),
+    tiny("unlike_lights", "lights of unlike power", NONE, lights::unlike_lights),
     tiny("an_eye_in_glass", "the eye in glass: η² of radiance", LIGHT, an_eye_in_glass),
     tiny("moving_instance", "objects that move", NONE, moving::moving_instance),
     tiny("moving_light", "a lamp that moves", NONE, moving::moving_light),
@@ -273,60 +274,6 @@ fn all_around() -> Scene {
     finish(b)
 }
 
-/// Two triangles of unlike size emit, so that picking by area matters.
-fn mesh_light() -> Scene {
-    let mut b = room();
-    let p = vec![
-        Vec3::new(-0.6, 0.9, -0.4),
-        Vec3::new(0.6, 0.8, -0.4),
-        Vec3::new(0.0, 0.9, 0.6),
-        Vec3::new(-0.8, 0.6, 0.2),
-    ];
-    let uvs = vec![Vec2::ZERO, Vec2::X, Vec2::Y, Vec2::ONE];
-    let mesh = Mesh::new(p, vec![], uvs, vec![[0, 1, 2], [0, 2, 3]]).unwrap();
-    emit(&mut b, Shape::Mesh(mesh), Vec3::new(5.0, 6.0, 7.0), Sides::Two);
-    finish(b)
-}
-
-fn sphere_light() -> Scene {
-    let mut b = room();
-    emit(&mut b, ball([0.2, 0.3, 0.0], 0.25), Vec3::new(6.0, 5.0, 4.0), Sides::One);
-    finish(b)
-}
-
-fn spot_light() -> Scene {
-    let mut b = room();
-    let grey = diffuse(&mut b, Vec3::splat(0.6));
-    b.add(ball([0.2, -0.6, 0.0], 0.4), grey);
-    let spot = SpotLight::new(Vec3::new(-0.5, 0.7, 0.4), Vec3::new(0.6, -1.0, -0.3), Vec3::splat(4.0), [0.3, 0.8]);
-    b.light(spot.unwrap());
-    finish(b)
-}
-
-fn directional_light() -> Scene {
-    let mut b = room();
-    let grey = diffuse(&mut b, Vec3::splat(0.6));
-    b.add(ball([0.2, -0.5, 0.0], 0.5), grey);
-    b.light(DirectionalLight::new(Vec3::new(0.3, -0.4, -1.0), Vec3::new(3.0, 2.5, 2.0)).unwrap());
-    finish(b)
-}
-
-/// A sky with a bright patch, seen through the open front.
-fn environment_light() -> Scene {
-    let mut b = room();
-    let (w, h) = (16usize, 8usize);
-    let sky = |i: usize| {
-        let (x, y) = (i % w, i / w);
-        let patch = if (10..13).contains(&x) && (2..4).contains(&y) { 12.0 } else { 0.0 };
-        Vec3::new(0.5 + patch, 0.6 + patch, 1.0 + 0.1 * y as f32)
-    };
-    let image = ImageTexture::new(w, h, (0..w * h).map(sky).collect(), Wrap::Repeat).unwrap();
-    b.light(EnvironmentLight::panorama(image, Vec3::ONE, glam::Mat3::IDENTITY).unwrap());
-    let grey = diffuse(&mut b, Vec3::splat(0.6));
-    b.add(ball([0.0, -0.5, 0.6], 0.4), grey);
-    finish(b)
-}
-
 fn rough_glass() -> Scene {
     let mut b = room();
     let glass = clear_glass(&mut b);
@@ -410,14 +357,5 @@ fn dispersive_rough_glass() -> Scene {
     let frosted = b.material(RoughDielectricMaterial { glass, alpha: 0.3.into() });
     b.add(ball([0.1, -0.4, 0.1], 0.5), frosted);
     emit(&mut b, lamp(1.2, 0.95), Vec3::splat(5.0), Sides::One);
-    finish(b)
-}
-
-/// A strong quad, a weak ball and a point: the choice between lights must cancel out.
-fn unlike_lights() -> Scene {
-    let mut b = room();
-    emit(&mut b, lamp(0.6, 0.95), Vec3::new(6.0, 5.0, 4.0), Sides::One);
-    emit(&mut b, ball([0.5, -0.7, 0.2], 0.2), Vec3::new(0.5, 2.0, 0.5), Sides::One);
-    b.light(PointLight { p: Vec3::new(-0.6, -0.2, 0.3), intensity: Vec3::new(0.1, 0.1, 0.4).into() });
     finish(b)
 }
