@@ -2,7 +2,8 @@
 //! Lightweight Photon Mapping", and Šik & Křivánek 2019, "Implementing One-Click Caustics in Corona Renderer").
 //!
 //! A short training decides for each part of the picture between a path tracer with photons for caustics alone, both weighed
-//! against each other, and photons for all that is not direct light; where no caustic is in reach, no photon is shot.
+//! against each other, and photons for all that is not direct light; how many photons there are, down to none; and how far
+//! gathers reach (see [`super::engine`]'s `plan`).
 use super::{
     Entry,
     engine::{Engine, Fit, Merge, PARAMS, Techniques},

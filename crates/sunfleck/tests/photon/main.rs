@@ -1,5 +1,6 @@
 //! Photons, their maps, and the pictures made with them.
 mod aim;
+mod bandwidth;
 mod ledger;
 mod maps;
 mod pictures;

@@ -7,8 +7,8 @@ use sunfleck::{
     light::PointLight,
     math::{Ray, Vec2},
     photon::{
-        After, Bandwidth, CameraEnd, Catch, Disc, Evenness, Keep, Kernel, NearestMap, NearestQuery, Photon, Radii,
-        RadiusMap, Schedule, Shower, Source, gather_nearest, gather_within,
+        CameraEnd, Catch, Disc, Evenness, Keep, Kernel, NearestMap, NearestQuery, Photon, Radii, RadiusMap, Shower,
+        Source, gather_nearest, gather_within,
     },
     sampler::{Domain, Sampler},
     scene::{Interaction, Scene, SceneBuilder},
@@ -326,36 +326,4 @@ fn fitted_radii_shrink_where_light_is_focused_and_not_on_an_evenly_lit_wall() {
     assert!(least < 0.4 * most && most > 0.9, "{least} to {most}: {factors:?}");
     let again = first.fitted(&scene, &Evenness { source: &source, limits, seed: 1, paths: 100_000 });
     assert!((0..64).all(|i| again.at(Vec2::splat(i as f32 / 64.0)) == fitted.at(Vec2::splat(i as f32 / 64.0))));
-}
-
-#[test]
-fn radii_fitted_to_the_error_shrink_in_focus_and_forget_where_the_search_began() {
-    let scene = caustic();
-    let limits = Limits::default();
-    let source = Source::plain();
-    let bandwidth = Bandwidth {
-        source: &source,
-        spec: spec(64),
-        limits,
-        keep: Keep::Scattered,
-        kernel: Kernel::Epanechnikov,
-        schedule: Schedule::default(),
-        seed: 1,
-        paths: 100_000,
-    };
-    let after = After::new(64, Schedule::default());
-    let start = Radii::from_footprints(&scene, spec(64), &limits, 1, 4.0, 1.0);
-    let fit = |factor: f32| {
-        let fitted = bandwidth.fit(&scene, start.clone().scaled(factor));
-        fitted.by(|tile, _| fitted.best(0, tile, after))
-    };
-    let radii = [1.0, 1.0 / 30.0, 30.0].map(fit);
-    let at = |r: &Radii, i: usize| r.at((Vec2::new((i % 8) as f32, (i / 8) as f32) + 0.5) / 8.0);
-    let factors: Vec<f32> = (0..64).map(|i| at(&radii[0], i)).collect();
-    let (least, most) = factors.iter().fold((f32::MAX, 0.0f32), |(a, b), f| (a.min(*f), b.max(*f)));
-    assert!(least < 0.5 * most, "{least} to {most}: {factors:?}");
-    for other in &radii[1..] {
-        let ratio = other.typical() / radii[0].typical();
-        assert!((0.4..2.5).contains(&ratio), "{} against {}", other.typical(), radii[0].typical());
-    }
 }

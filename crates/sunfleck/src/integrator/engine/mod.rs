@@ -88,7 +88,7 @@ pub(super) const PARAMS: [ParamInfo; 9] = [
     ParamInfo { name: "radius-scale", about: "first radius over that, 1e-6 to 1e6 (default 1)" },
     ParamInfo {
         name: "fit",
-        about: "fit the first radius to the light: off, even or error (default error for unified)",
+        about: "fit the first radius to the light: off, even or error (default error for unified, off if radius is set)",
     },
     ParamInfo { name: "alpha", about: "how the radius shrinks, 0.01 to 1 (default 2/3; 1 keeps it)" },
     ParamInfo { name: "kernel", about: "constant, cone or epanechnikov (default epanechnikov)" },
@@ -126,12 +126,14 @@ impl Engine {
         let d = self;
         let paths = p.count("photons", 0, 1..=1_000_000_000)?;
         let radius = p.number("radius", 0.0, f64::from(f32::MIN_POSITIVE)..=1e30)? as f32;
+        // Whoever names a radius means it.
+        let fit = if radius > 0.0 { Fit::Off } else { d.fit };
         Ok(Self {
             limits: p.limits()?,
             paths: (paths > 0).then_some(paths),
             radius: (radius > 0.0).then_some(radius),
             radius_scale: p.number("radius-scale", 1.0, 1e-6..=1e6)? as f32,
-            fit: Fit::ALL[p.word("fit", d.fit as usize, &Fit::WORDS)?],
+            fit: Fit::ALL[p.word("fit", fit as usize, &Fit::WORDS)?],
             schedule: Schedule { alpha: p.number("alpha", d.schedule.alpha, 0.01..=1.0)? },
             kernel: Kernel::ALL[p.word("kernel", d.kernel as usize, &Kernel::WORDS)?],
             memory: p.count("memory", d.memory, 1_000_000..=1_000_000_000_000_000)?,

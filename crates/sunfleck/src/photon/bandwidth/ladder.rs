@@ -4,7 +4,7 @@ use crate::{
     photon::{Photon, Radii, RadiusMap, Shower},
     sampler::Domain,
     scene::World,
-    spectrum::Spectrum,
+    spectrum::{Spectrum, Wavelengths},
 };
 use rayon::prelude::*;
 use std::{f32::consts::PI, iter::Sum, ops::AddAssign};
@@ -34,7 +34,7 @@ pub(super) struct Ladder<'b> {
 pub(super) struct Measured {
     /// By spot and family.
     pub(super) spots: Vec<[Rungs; FAMILIES]>,
-    /// Radiance at each spot by the top rung.
+    /// Radiance (mean of the channels) at each spot by the top rung.
     light: Vec<f64>,
     /// Photons in the mean at the top rung of a set.
     pub(super) found: f64,
@@ -237,7 +237,8 @@ impl Ladder<'_> {
             if u32::from(photon.scatterings) > most || f.is_black() {
                 return;
             }
-            let value = (f * photon.flux * seen.beta).mean() * Spectrum::join(seen.dispersed, photon.dispersed);
+            let value = f * photon.flux * seen.beta * Spectrum::join(seen.dispersed, photon.dispersed);
+            let value = value.to_rgb(Wavelengths::Rgb).element_sum() / 3.0;
             for r in (0..RUNGS).take_while(|r| d2 <= r2[*r]) {
                 let part = value * kernel.shape(d2, r2[r]) / (PI * r2[r]);
                 for family in 0..=usize::from(photon.caustic) {

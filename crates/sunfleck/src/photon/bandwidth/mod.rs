@@ -11,6 +11,8 @@
 //! Neighbours: [`super::uniformity`] asks another question of the same photons; [`super::radii`] has the radii to begin with.
 mod ladder;
 mod spots;
+#[cfg(test)]
+mod tests;
 
 use super::{Keep, Kernel, Radii, Schedule, Source};
 use crate::{
@@ -112,7 +114,7 @@ const SETS: [u64; 2] = [4, 6];
 const ENOUGH: f64 = 32.0;
 /// Radii that the search begins with, in widths of a pixel.
 const WIDTHS: [f32; 2] = [1.0, 8.0];
-/// The widest it can end with: at most so many, and in small pictures this part of the shorter side.
+/// The widest it can try: at most so many, and in small pictures this part of the shorter side.
 const WIDEST: f32 = 32.0;
 const PART: f32 = 1.0 / 16.0;
 /// Light paths of a set: at least, and in the fit this part of a pass.
@@ -159,7 +161,9 @@ impl Bandwidth<'_> {
         let spots = Spots::some(world, radii, self, SEARCHED);
         let after = After::new(PASSES, self.schedule);
         let Some(width) = Spots::typical_width(&spots, self.spec) else { return 1.0 };
-        let mut factor = width.clamp(WIDTHS[0], WIDTHS[1]) / width;
+        let side = self.spec.width.min(self.spec.height) as f32;
+        let widest = (PART * side).clamp(WIDTHS[0], WIDEST) / width;
+        let mut factor = (width.clamp(WIDTHS[0], WIDTHS[1]) / width).min(widest);
         let mut paths = LEAST;
         for round in 0..MOVES {
             let ladder = Ladder { bandwidth: self, top: factor * STEP, paths, sets: SETS[0], round };
@@ -167,7 +171,10 @@ impl Bandwidth<'_> {
             let in_a_pass = measured.found * self.paths as f64 / paths as f64;
             if in_a_pass < ENOUGH {
                 // Too narrow to find much, whatever the blur.
-                factor *= STEP * STEP;
+                if factor == widest {
+                    break;
+                }
+                factor = (factor * STEP * STEP).min(widest);
                 continue;
             }
             if measured.found < ENOUGH {
@@ -176,13 +183,12 @@ impl Bandwidth<'_> {
             }
             let sum = measured.relative();
             let rung = sum.least(|rung| after.of(rung.error, rung.pixels));
-            factor = ladder.factor(rung);
-            if rung > 0 && rung + 1 < CANDIDATES {
+            let was = factor;
+            factor = ladder.factor(rung).min(widest);
+            if factor == was || (rung > 0 && rung + 1 < CANDIDATES) {
                 break;
             }
         }
-        let side = self.spec.width.min(self.spec.height) as f32;
-        let widest = (PART * side).clamp(WIDTHS[0], WIDEST);
-        factor.min(widest / width)
+        factor
     }
 }
