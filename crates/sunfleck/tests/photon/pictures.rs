@@ -5,10 +5,11 @@ use crate::scenes::{
 };
 use glam::Vec3;
 use sunfleck::{
-    bsdf::PhongMaterial,
+    bsdf::{ConductorMaterial, PhongMaterial, RoughConductorMaterial},
     integrator::Integrator,
-    light::Sides,
+    light::{EnvironmentLight, Sides},
     scene::{Scene, SceneBuilder, SurfaceDef},
+    shape::{Parallelogram, Shape},
     spectrum::Rgb,
 };
 
@@ -219,4 +220,25 @@ fn no_pixel_is_black_or_broken_in_a_lit_room() {
         // Only what the lamp cannot see may be dark when photons are very few.
         assert!(black < 1024 / 20, "{name} {settings}: {black} black pixels");
     }
+}
+
+/// A ball of brushed metal on a floor so large that hardly a photon comes near it.
+#[test]
+fn unified_leaves_to_its_path_tracer_what_no_photon_reaches() {
+    let mut b = SceneBuilder::new();
+    let floor = matt(&mut b, Rgb::splat(0.8));
+    let side = 4000.0;
+    let corner = Vec3::new(-0.5 * side, 0.0, -0.5 * side);
+    b.add(Shape::Parallelogram(Parallelogram::new(corner, side * Vec3::Z, side * Vec3::X)), floor);
+    let [eta, k, reflectance] = [0.2, 3.0, 1.0].map(|v| b.constant(Rgb::splat(v)));
+    let metal = ConductorMaterial { eta, k, reflectance };
+    let rough = b.material(RoughConductorMaterial { metal, alpha: 0.3.into() });
+    b.add(ball([0.0, 1.0, 0.0], 1.0), rough);
+    b.light(EnvironmentLight::constant(Rgb::splat(1.0)));
+    b.camera(eye(Vec3::new(0.0, 1.2, -3.0), Vec3::new(0.0, 0.8, 0.0), 45.0));
+    let scene = b.build().unwrap();
+    let [want, got] = [("path", ""), ("unified", "aim=off")]
+        .map(|(name, settings)| shoot(&scene, &*make(name, settings), spec(64), 24));
+    let (want, got) = (mean(&want), mean(&got));
+    assert!((got / want - 1.0).abs().max_element() < 0.01, "{got} instead of {want}");
 }

@@ -77,11 +77,15 @@ impl After {
         let (variance, bias) = schedule.of_mean(passes);
         Self { variance, bias2: bias * bias }
     }
+    /// The price of an error (squared) that whole blocks share and that passes do not lessen.
+    pub fn shared(self, error2: f64) -> f64 {
+        (1.0 + BLOCKS) * error2
+    }
     /// What is left of the error of one pass, by gathers that cover so many pixels.
     #[inline]
     pub fn of(self, e: GatherError, pixels: f64) -> f64 {
         let shared = pixels / (pixels + BLOCK);
-        (1.0 + BLOCKS * shared) * self.variance * e.variance + (1.0 + BLOCKS) * self.bias2 * e.bias2
+        (1.0 + BLOCKS * shared) * self.variance * e.variance + self.shared(self.bias2 * e.bias2)
     }
 }
 

@@ -3,6 +3,10 @@
 //! The sooner a picture is good, the less the product of its error and its cost. So a tile takes what adds least to
 //! `error / mean error + cost / mean cost`, round by round as the means follow, for each number of light paths, and the
 //! number with the least product wins; none at all is among them.
+//!
+//! What a short training has not met, it cannot measure: a path tracer that never found the caustic looks calm, and so does a
+//! gather that no photon reached. Yet one candidate sees what the other misses, so light that is missing beyond noise counts as
+//! error (see [`Choice::unseen`]).
 use super::{
     super::{Prepared, techniques::Merge},
     Plan,
@@ -27,6 +31,8 @@ const SHARES: [f64; 7] = [2.0, 1.0, 0.5, 0.25, 0.125, 0.0625, 0.03125];
 const PASSES: f64 = bandwidth::PASSES as f64;
 /// Squared radiance below which a tile is as good as black.
 const DARKEST: f64 = 1e-30;
+/// Light is missing if it is more than the square root of this times the noise.
+const SURE: f64 = 16.0;
 /// Rounds of prices.
 const ROUNDS: usize = 4;
 /// Points along a tile's edge where ladders are looked up.
@@ -156,7 +162,8 @@ impl<'t> Choice<'t> {
         let radiance = |i: usize| plan.around(i, |j| by_photons.tiles[j].mean);
         let light2 = (0..tiles).map(|i| radiance(i).powi(2).max(DARKEST)).collect();
         let mut choice = Self { plan, candidates, fitted, after, light2, rest: Vec::new(), light };
-        choice.rest = (0..tiles).map(|i| [0, 1].map(|c| choice.without_gathers(i, c) / choice.light2[i])).collect();
+        let rest = |i: usize, c: usize| (choice.without_gathers(i, c) + choice.unseen(i, c)) / choice.light2[i];
+        choice.rest = (0..tiles).map(|i| [0, 1].map(|c| rest(i, c))).collect();
         choice
     }
     /// Error of candidate `c` in tile `i` that is not of gathers, radiance squared.
@@ -175,6 +182,29 @@ impl<'t> Choice<'t> {
             n += 1.0;
         }
         (variance - SHARE as f64 * gathers / n.max(1.0)).max(0.0) / PASSES
+    }
+    /// Error (radiance squared) of candidate `c` in tile `i` by light that the other candidate saw there and it did not.
+    ///
+    /// What `n` samples did not meet comes less often than once in `n`, and so is in each sample a variance of at least `n` times
+    /// its square. Photons are shared, so that none in any of the gathers says less: what they miss counts as blur does.
+    fn unseen(&self, i: usize, c: usize) -> f64 {
+        // Photons are shared by neighbours: only passes are independent.
+        let mean_and_noise2 = |c: usize| {
+            let tiles = &self.candidates[c].trial.tiles;
+            let passes: [f64; trial::PASSES as usize] =
+                std::array::from_fn(|pass| self.plan.around(i, |j| tiles[j].passes[pass]));
+            let n = passes.len() as f64;
+            let mean = passes.iter().sum::<f64>() / n;
+            (mean, passes.iter().map(|p| (p - mean).powi(2)).sum::<f64>() / (n * (n - 1.0)))
+        };
+        let [own, other] = [c, 1 - c].map(mean_and_noise2);
+        let (missing, noise2) = (other.0 - own.0, own.1 + other.1);
+        if missing <= 0.0 || missing * missing < SURE * noise2 {
+            return 0.0;
+        }
+        let error = missing * missing - noise2;
+        let samples = self.plan.around_sum(i, |j| self.candidates[c].trial.tiles[j].samples);
+        if self.candidates[c].merge == Merge::Caustic { error * samples / PASSES } else { self.after.shared(error) }
     }
     /// The bill of the picture without photons.
     fn without_photons(&self) -> Bill {

@@ -56,12 +56,19 @@ impl Plan {
         let size = Vec2::new(1.0 / self.columns as f32, 1.0 / self.rows as f32);
         (Vec2::new((i % self.columns) as f32, (i / self.columns) as f32) * size, size)
     }
+    /// Tile `i` and its neighbours.
+    fn near(&self, i: usize) -> impl Iterator<Item = usize> + use<> {
+        let near = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);
+        let (x, y, columns) = (i % self.columns, i / self.columns, self.columns);
+        let rows = near(y, self.rows);
+        rows.flat_map(move |y| near(x, columns).map(move |x| y * columns + x))
+    }
+    /// Sum over tile `i` and its neighbours.
+    fn around_sum(&self, i: usize, value: impl Fn(usize) -> f64) -> f64 {
+        self.near(i).map(value).sum()
+    }
     /// Mean over tile `i` and its neighbours.
     fn around(&self, i: usize, value: impl Fn(usize) -> f64) -> f64 {
-        let near = |at: usize, end: usize| at.saturating_sub(1)..(at + 2).min(end);
-        let (x, y) = (i % self.columns, i / self.columns);
-        let tiles = near(y, self.rows).flat_map(|y| near(x, self.columns).map(move |x| y * self.columns + x));
-        let (sum, n) = tiles.fold((0.0, 0.0), |(s, n), i| (s + value(i), n + 1.0));
-        sum / n
+        self.around_sum(i, value) / self.near(i).count() as f64
     }
 }

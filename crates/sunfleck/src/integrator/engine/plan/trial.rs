@@ -10,7 +10,7 @@ use crate::{
 };
 
 /// Training passes: variances of a tile's pixels to about a third, of which neighbours then take the mean.
-const PASSES: u64 = 6;
+pub(super) const PASSES: u64 = 6;
 /// Pixels of the training's picture, at most.
 const PIXELS: f64 = 16_384.0;
 /// Training passes have this many times fewer light paths than those of the render, and gathers so many times more variance.
@@ -32,6 +32,10 @@ pub(super) struct Seen {
     pub(super) mean: f64,
     /// Of one pass.
     pub(super) variance: f64,
+    /// Samples it was seen by.
+    pub(super) samples: f64,
+    /// Mean of each pass.
+    pub(super) passes: [f64; PASSES as usize],
 }
 
 /// A picture of the same shape, small enough for a training.
@@ -46,6 +50,11 @@ impl Plan {
     pub(super) fn try_out(&self, prepared: &Prepared, spec: FilmSpec, seed: u64) -> Trial {
         let pixels = spec.pixels();
         let (mut sums, mut squares) = (vec![0.0f64; pixels], vec![0.0f64; pixels]);
+        let tile_of = |i: usize| {
+            let (x, y) = (i % spec.width as usize, i / spec.width as usize);
+            y * self.rows / spec.height as usize * self.columns + x * self.columns / spec.width as usize
+        };
+        let mut tiles = vec![(Seen::default(), 0.0f64); self.tiles.len()];
         let mut counts = Counts::default();
         let mut image = PassImage::new(spec);
         for index in 0..PASSES {
@@ -55,20 +64,23 @@ impl Plan {
                 let v = f64::from(p.element_sum()) / 3.0;
                 sums[i] += v;
                 squares[i] += v * v;
+                tiles[tile_of(i)].0.passes[index as usize] += v;
             }
             counts += image.counts;
         }
         let n = PASSES as f64;
-        let mut tiles = vec![(Seen::default(), 0.0f64); self.tiles.len()];
         for i in 0..pixels {
-            let (x, y) = (i % spec.width as usize, i / spec.width as usize);
-            let tile = y * self.rows / spec.height as usize * self.columns + x * self.columns / spec.width as usize;
-            let (seen, count) = &mut tiles[tile];
+            let (seen, count) = &mut tiles[tile_of(i)];
             seen.mean += sums[i] / n;
             seen.variance += ((squares[i] - sums[i] * sums[i] / n) / (n - 1.0)).max(0.0);
             *count += 1.0;
         }
-        let mean = |(s, n): (Seen, f64)| Seen { mean: s.mean / n.max(1.0), variance: s.variance / n.max(1.0) };
+        let mean = |(s, n): (Seen, f64)| Seen {
+            mean: s.mean / n.max(1.0),
+            variance: s.variance / n.max(1.0),
+            samples: n * PASSES as f64,
+            passes: s.passes.map(|sum| sum / n.max(1.0)),
+        };
         Trial {
             tiles: tiles.into_iter().map(mean).collect(),
             pixel: (counts.rays - counts.light_rays) as f64 / (n * pixels as f64),
