@@ -110,10 +110,21 @@ impl Node {
     pub(super) fn set(&mut self, slot: usize, lo: Vec3, hi: Vec3, child: Child) {
         for axis in 0..3 {
             let slack = (hi[axis] - lo[axis]) * (4.0 * f32::EPSILON);
-            self.planes[2 * axis][slot] = (lo[axis] - slack).next_down();
-            self.planes[2 * axis + 1][slot] = (hi[axis] + slack).next_up();
+            self.planes[2 * axis][slot] = next_normal_down(lo[axis] - slack);
+            self.planes[2 * axis + 1][slot] = -next_normal_down(-hi[axis] - slack);
         }
         self.children[slot] = child;
+    }
+}
+
+/// A number below `v`, the next one unless that is subnormal: processors multiply those in microcode, and floors at height 0
+/// are everywhere.
+fn next_normal_down(v: f32) -> f32 {
+    let next = v.next_down();
+    match next.is_subnormal() {
+        true if next < 0.0 => -f32::MIN_POSITIVE,
+        true => 0.0,
+        false => next,
     }
 }
 
@@ -138,5 +149,24 @@ impl Child {
             }
         };
         Self(self.0 + step)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn planes_lie_outside_and_are_never_subnormal() {
+        let tiny = f32::MIN_POSITIVE / 3.0;
+        for v in [0.0, -0.0, tiny, -tiny, f32::MIN_POSITIVE, -f32::MIN_POSITIVE, f32::from_bits(1), 1.0, -7.5e10] {
+            let mut node = Node::EMPTY;
+            node.set(3, Vec3::splat(v), Vec3::splat(v), Child(0));
+            for axis in 0..3 {
+                let (min, max) = (node.planes[2 * axis][3], node.planes[2 * axis + 1][3]);
+                assert!(min < v && v < max || v.is_subnormal() && min <= v && v <= max, "{min} {v} {max}");
+                assert!(!min.is_subnormal() && !max.is_subnormal(), "{min} {max} around {v}");
+            }
+        }
     }
 }
