@@ -72,6 +72,11 @@ impl Sampler {
         self.draw += 1;
         0.0
     }
+    /// [`Sampler::skip`], so many times.
+    #[inline]
+    pub fn skip_many(&mut self, draws: u32) {
+        self.draw += draws;
+    }
 
     /// The shuffled index and the key of the next stratified draw; `None` past the last one.
     #[inline]

@@ -8,6 +8,7 @@ use crate::{
     scene::{Interaction, Scattered, World},
     spectrum::Spectrum,
 };
+use glam::Vec2;
 
 /// When a walk ends by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -158,7 +159,8 @@ fn walk_by<const EVENLY: bool>(
         let evenly = EVENLY && !at.is_connectible();
         // Reflections have the lower numbers.
         let u_lobe = if evenly { if u_lobe < REFLECT { 0.0 } else { 1.0 - f32::EPSILON } } else { u_lobe };
-        let Some(mut s) = at.sample(u_lobe, sampler.next_2d(), mode) else { break };
+        let u = if at.bsdf.is_polished() { Vec2::splat(sampler.skip()) } else { sampler.next_2d() };
+        let Some(mut s) = at.sample(u_lobe, u, mode) else { break };
         if evenly && s.pdf < 1.0 {
             s.weight *= s.pdf / way_prob(&s);
         }

@@ -1,13 +1,14 @@
 //! What a scene promises: placing an object is the same as moving its geometry, and what is missing is named.
 use glam::{Affine3A, EulerRot, Mat3, Quat, Vec2, Vec3};
 use sunfleck::{
-    bsdf::{DiffuseMaterial, Transport},
+    bsdf::{DiffuseMaterial, Transport, TwoSidedMaterial},
     light::{AreaLight, DirectionalLight, EnvironmentLight, Light, PointLight, Sides},
     math::{Ray, warp::square_to_sphere},
     sampler::{Domain, Sampler},
-    scene::{Interaction, MaterialId, ObjectId, Scene, SceneBuilder, Sky, SurfaceDef, TextureId},
+    scene::{Interaction, MaterialId, ObjectId, Record, Scene, SceneBuilder, Sky, SurfaceDef, TextureId},
     shape::{Mesh, Parallelogram, Shape, Sphere},
     spectrum::{Rgb, Spectrum, Wavelengths},
+    texture::{Checkerboard, Product, Texture, UvMap, VertexColour},
 };
 
 const RGB: Wavelengths = Wavelengths::Rgb;
@@ -58,9 +59,16 @@ fn placements() -> Vec<(&'static str, Affine3A)> {
     ]
 }
 
+/// [`grey`], by a texture that looks at its coordinates.
+fn checked(b: &mut SceneBuilder) -> MaterialId {
+    let grey = b.constant(Rgb::splat(0.5));
+    let reflectance = b.texture(Texture::Checkerboard(Checkerboard { of: [grey; 2], map: UvMap::default() }));
+    b.material(DiffuseMaterial { reflectance })
+}
+
 fn placed(shape: Shape, m: Affine3A) -> Scene {
     let mut b = SceneBuilder::new();
-    let material = grey(&mut b);
+    let material = checked(&mut b);
     let object = b.object(vec![SurfaceDef { shape, material, emission: None }]);
     b.place(object, m);
     b.build().unwrap()
@@ -68,7 +76,7 @@ fn placed(shape: Shape, m: Affine3A) -> Scene {
 
 fn moved(shape: &Shape, m: Affine3A) -> Scene {
     let mut b = SceneBuilder::new();
-    let material = grey(&mut b);
+    let material = checked(&mut b);
     b.add(shape.transformed(&m).unwrap(), material);
     b.build().unwrap()
 }
@@ -91,6 +99,60 @@ fn same_shading(a: &Interaction, b: &Interaction, scale: f32) -> bool {
         && (a.frame.n - b.frame.n).length() < 1e-3
         && (a.distance - b.distance).abs() < slack
         && (a.f_cos(wi, Transport::Radiance).max() - b.f_cos(wi, Transport::Radiance).max()).abs() < 1e-3
+}
+
+#[test]
+fn hits_know_their_texture_coordinates_where_the_material_looks_at_them() {
+    let ball = Shape::Sphere(Sphere { centre: Vec3::ZERO, radius: 1.0 });
+    // Its x and y tell half a radian of longitude, its z a sixth of the way from pole to pole.
+    let n = Vec3::new(0.5f32.cos(), 0.5f32.sin(), 0.0) * 0.75f32.sqrt() + 0.5 * Vec3::Z;
+    let world = placed(ball, Affine3A::IDENTITY);
+    let at = world.world(RGB, 0.0).intersect(&Ray::new(3.0 * n, -n)).unwrap();
+    assert!((at.uv - Vec2::new(0.5 / std::f32::consts::TAU, 2.0 / 3.0)).length() < 1e-5, "{}", at.uv);
+}
+
+#[test]
+fn what_is_recalled_is_what_was_met() {
+    for (name, m) in placements() {
+        let scene = placed(Shape::Mesh(sheet()), m);
+        let world = scene.world(RGB, 0.0);
+        let mut hits = 0;
+        for (i, at) in rays_at(m, 2000).filter_map(|ray| world.intersect(&ray)).enumerate() {
+            hits += 1;
+            assert!(world.can_recall(&at));
+            let again = world.recall(&Record::new(&at));
+            let wi = square_to_sphere(sampler(i as u64).next_2d());
+            assert_eq!((again.p, again.ng, again.wo, again.uv), (at.p, at.ng, at.wo, at.uv), "{name}");
+            assert_eq!((again.pdf(wi), again.pdf_back(wi)), (at.pdf(wi), at.pdf_back(wi)), "{name}");
+            for mode in [Transport::Radiance, Transport::Flux] {
+                assert_eq!(again.f_cos(wi, mode), at.f_cos(wi, mode), "{name}");
+            }
+            // Off the surface by as much, but for roundings.
+            let (far, moved) = ((again.spawn(wi).o - at.spawn(wi).o).length(), (at.spawn(wi).o - at.p).length());
+            assert!(far <= 1e-3 * moved + 2.0 * f32::EPSILON * at.p.abs().max_element(), "{name}: {far} of {moved}");
+        }
+        assert!(hits > 300, "{name}");
+    }
+}
+
+#[test]
+fn what_depends_on_more_than_the_place_is_not_recalled() {
+    let mut b = SceneBuilder::new();
+    let of = grey(&mut b);
+    let colours = b.texture(Texture::Vertex(VertexColour::Rgb));
+    let twice = b.texture(Texture::Product(Product { of: [colours; 2] }));
+    let dyed = b.material(DiffuseMaterial { reflectance: twice });
+    let covered = b.material(TwoSidedMaterial { front: Some(of), back: None });
+    for (x, material) in [(0.0, of), (10.0, dyed), (20.0, covered)] {
+        b.add(Shape::Sphere(Sphere { centre: Vec3::new(x, 0.0, 0.0), radius: 1.0 }), material);
+    }
+    let scene = b.build().unwrap();
+    let world = scene.world(RGB, 0.0);
+    let recalled = [0.0, 10.0, 20.0].map(|x| {
+        let at = world.intersect(&Ray::new(Vec3::new(x, 0.0, -5.0), Vec3::Z)).unwrap();
+        world.can_recall(&at)
+    });
+    assert_eq!(recalled, [true, false, false]);
 }
 
 #[test]

@@ -227,6 +227,14 @@ impl Bsdf {
     pub fn has_one_lobe(&self) -> bool {
         matches!(self, Self::Diffuse(_) | Self::Mirror(_) | Self::Black(_))
     }
+    /// True where [`Scatter::sample`] surely does not look at `u`.
+    #[inline]
+    pub fn is_polished(&self) -> bool {
+        matches!(
+            self,
+            Self::Dielectric(_) | Self::ThinDielectric(_) | Self::Mirror(_) | Self::Conductor(_) | Self::Black(_)
+        )
+    }
 }
 
 models![

@@ -78,6 +78,8 @@ pub trait Project {
     fn ray(&self, raster: Vec2, u_lens: Vec2) -> CameraRay;
     /// Connects `from` to the lens point of `u_lens`; `None` if `from` is behind the camera.
     fn sample_wi(&self, from: Vec3, u_lens: Vec2) -> Option<CameraSample>;
+    /// Whether `u_lens` matters.
+    fn has_lens(&self) -> bool;
     /// The camera at `time` on the way from this one (0) to `to` (1); `None` if there is no way, as between mirror images.
     fn between(&self, to: &Self, time: f32) -> Option<Self>
     where
@@ -99,6 +101,10 @@ macro_rules! cameras {
             #[inline]
             fn sample_wi(&self, from: Vec3, u_lens: Vec2) -> Option<CameraSample> {
                 match self { $(Self::$name(c) => c.sample_wi(from, u_lens)),* }
+            }
+            #[inline]
+            fn has_lens(&self) -> bool {
+                match self { $(Self::$name(c) => c.has_lens()),* }
             }
             fn between(&self, to: &Self, time: f32) -> Option<Self> {
                 match (self, to) {

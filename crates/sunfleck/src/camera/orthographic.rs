@@ -78,6 +78,10 @@ impl Project for Orthographic {
         let raster = Vec2::new(0.5 + plane.x, 0.5 - plane.y);
         Some(CameraSample { p, wi: -d, raster, importance: 1.0 / self.area(cos) })
     }
+    #[inline]
+    fn has_lens(&self) -> bool {
+        self.lens.radius > 0.0
+    }
     /// The plane moves along a straight line and turns at constant speed; picture and lens change linearly.
     fn between(&self, to: &Self, time: f32) -> Option<Self> {
         Some(Self {

@@ -83,6 +83,10 @@ impl Project for Perspective {
         let raster = Vec2::new(0.5 + plane.x, 0.5 - plane.y);
         Some(CameraSample { p, wi, raster, importance: 1.0 / (self.solid_angle(cos) * to.length_squared()) })
     }
+    #[inline]
+    fn has_lens(&self) -> bool {
+        self.lens.radius > 0.0
+    }
     /// The eye moves along a straight line and turns at constant speed; picture and lens change linearly.
     fn between(&self, to: &Self, time: f32) -> Option<Self> {
         Some(Self {

@@ -84,6 +84,10 @@ impl Project for Spherical {
         let importance = 1.0 / (self.solid_angle(local) * to.length_squared());
         Some(CameraSample { p: self.stand.position, wi, raster: self.raster(local), importance })
     }
+    #[inline]
+    fn has_lens(&self) -> bool {
+        false
+    }
     /// The eye moves along a straight line and turns at constant speed.
     fn between(&self, to: &Self, time: f32) -> Option<Self> {
         let stand = self.stand.between(&to.stand, time)?;

@@ -21,6 +21,12 @@ pub(super) struct EyeRay {
     pub(super) sampler: Sampler,
 }
 
+/// The pair of numbers for a point of the lens; drawn if there is a lens.
+#[inline]
+pub(super) fn lens_point(world: &World, sampler: &mut Sampler) -> Vec2 {
+    if world.camera().has_lens() { sampler.next_2d() } else { Vec2::splat(sampler.skip()) }
+}
+
 impl EyeRay {
     /// Sample number `sample` of pixel (`x`, `y`): for one sample a pass, the number of the pass.
     #[inline]
@@ -28,7 +34,7 @@ impl EyeRay {
         let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
         let mut sampler = Sampler::new(pass.seed, Domain::Camera, sample, pixel);
         let raster = spec.raster(x, y, sampler.next_2d());
-        let camera = world.camera().ray(raster, sampler.next_2d());
+        let camera = world.camera().ray(raster, lens_point(world, &mut sampler));
         Self { raster, camera, sampler }
     }
     /// The beginning of a camera walk.

@@ -74,11 +74,13 @@ impl Visit for Collect<'_> {
                 if a.delta { 1.0 } else { power_heuristic(a.pdf, self.world.pdf_direct(self.from, -a.at.wo, a.at)) };
             self.sum += a.beta * le * weight;
         }
-        // Drawn at every vertex, so that the dimensions of what follows do not depend on the material.
-        let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
         if a.scatterings < self.limits.scatterings && a.at.is_connectible() {
+            let (u_light, u) = (self.world.light_number(sampler), sampler.next_2d());
             self.rays += 1;
             self.sum += a.beta * direct(self.world, a.at, u_light, u, power_heuristic);
+        } else {
+            // So that the dimensions of what follows do not depend on the material.
+            sampler.skip_many(2);
         }
         self.from = a.at.p;
         Step::On

@@ -188,7 +188,17 @@ impl Prepared<'_> {
         let mut eye = EyeRay::new(world, spec, pass, pass.index, at);
         let (limits, black) = (self.settings.limits, Spectrum::BLACK);
         let gathered = Gathered { flux: black, photons: 0 };
-        let mut look = Look { world, map, limits, radius, direct: black, gathered, from: eye.camera.ray.o, rays: 0 };
+        let mut look = Look {
+            world,
+            map,
+            limits,
+            radius,
+            direct: black,
+            gathered,
+            from: eye.camera.ray.o,
+            hit_share: 1.0,
+            rays: 0,
+        };
         let rays = walk(world, &eye.start(), &limits, &mut eye.sampler, &mut look);
         let rgb = |s: Spectrum| s.to_rgb(pass.lambda);
         let whole = |c: Rgb| if c.is_finite() { c } else { Rgb::ZERO };
@@ -228,7 +238,16 @@ struct Look<'w> {
     gathered: Gathered,
     /// Where the camera path gathered.
     from: Vec3,
+    /// [`World::hit_share`] there.
+    hit_share: f32,
     rays: u64,
+}
+
+/// Weight of a light met by a direction of density `pdf` that is followed with probability `share`, over that probability;
+/// light samples of density `pdf_light` weigh `power_heuristic(pdf_light, share * pdf)`.
+#[inline]
+fn hit_weight(share: f32, pdf: f32, pdf_light: f32) -> f32 {
+    power_heuristic(share * pdf, pdf_light) / share
 }
 
 impl Visit for Look<'_> {
@@ -238,27 +257,42 @@ impl Visit for Look<'_> {
             // The one ray past the gather finds what connections to lights find badly.
             if !le.is_black() {
                 let pdf_light = self.world.pdf_direct(self.from, -a.at.wo, a.at);
-                self.direct += a.beta * le * power_heuristic(a.pdf, pdf_light);
+                self.direct += a.beta * le * hit_weight(self.hit_share, a.pdf, pdf_light);
             }
             return Step::Stop;
         }
         self.direct += a.beta * le;
-        let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
         let Some(most) = self.limits.scatterings.checked_sub(a.scatterings + 1) else { return Step::Stop };
-        if a.at.is_connectible() {
-            self.rays += 1;
-            self.direct += a.beta * direct(self.world, a.at, u_light, u, power_heuristic);
-            self.from = a.at.p;
-            let end = CameraEnd { most, dispersed: a.dispersed };
-            let found = gather_counted(self.map, a.at, self.radius, end);
-            self.gathered.flux += a.beta * found.flux;
-            self.gathered.photons += found.photons;
+        if !a.at.is_connectible() {
+            sampler.skip_many(2);
+            return Step::On;
         }
-        Step::On
+        let share = self.world.hit_share(a.at);
+        (self.from, self.hit_share) = (a.at.p, share);
+        let (u_light, u) = (self.world.light_number(sampler), sampler.next_2d());
+        self.rays += 1;
+        self.direct += a.beta * direct(self.world, a.at, u_light, u, |pdf, hit| power_heuristic(pdf, share * hit));
+        let found = gather_counted(self.map, a.at, self.radius, CameraEnd { most, dispersed: a.dispersed });
+        self.gathered.flux += a.beta * found.flux;
+        self.gathered.photons += found.photons;
+        if share >= 1.0 || sampler.next_1d() < share { Step::On } else { Step::OnIfDelta }
     }
     fn escape(&mut self, e: &Escape) {
         for Sky { le, pdf_direct, .. } in self.world.escaped(self.from, e.ray.d) {
-            self.direct += e.beta * le * if e.delta { 1.0 } else { power_heuristic(e.pdf, pdf_direct) };
+            self.direct += e.beta * le * if e.delta { 1.0 } else { hit_weight(self.hit_share, e.pdf, pdf_direct) };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{hit_weight, power_heuristic};
+
+    #[test]
+    fn what_is_rarely_followed_counts_as_much_more() {
+        for (share, pdf, light) in [(1.0, 0.3, 2.0), (0.25, 0.3, 0.1), (0.01, 0.3, 1e-3)] {
+            let sum = power_heuristic(light, share * pdf) + share * hit_weight(share, pdf, light);
+            assert!((sum - 1.0).abs() < 1e-6, "{share} {pdf} {light}: {sum}");
         }
     }
 }

@@ -59,11 +59,12 @@ impl Source {
     /// emitted. Draws one number and two pairs.
     #[inline]
     pub fn emit(&self, world: &World, sampler: &mut Sampler) -> Option<Emission> {
-        let (u, u_area, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
         if let Some(mixture) = &self.aim {
+            let (u, u_area, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
             let drawn = mixture.sample(world, u, u_area, u_dir)?;
             return Emission::new(drawn.light, drawn.prob, drawn.le);
         }
+        let (u, u_area, u_dir) = (world.light_number(sampler), sampler.next_2d(), sampler.next_2d());
         let (light, prob, _) = world.choose_light(u)?;
         Emission::new(light, prob, world.light(light).sample_le(u_area, u_dir, world.around())?)
     }

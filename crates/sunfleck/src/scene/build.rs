@@ -1,6 +1,6 @@
 //! Putting a scene together, and checking it once so that passes need not.
 use super::{
-    MaterialId, ObjectId, Scene, Surface, TextureId,
+    Looks, MaterialId, ObjectId, Scene, Surface, TextureId,
     moment::{Moment, Placement, freeze, hierarchies},
     moving::{Emitters, Geometry, Moving, Place, Places},
     parts::{Instance, Parts},
@@ -187,7 +187,8 @@ impl SceneBuilder {
         };
         let Self { textures, materials, camera_to, .. } = self;
         let porous = porous(&materials);
-        Ok(Scene { textures, materials, porous, objects, lights, geometry, camera, camera_to, around })
+        let looks = looks(&materials, &textures);
+        Ok(Scene { textures, materials, porous, looks, objects, lights, geometry, camera, camera_to, around })
     }
 
     fn check(&self) -> Result<(), SceneError> {
@@ -249,6 +250,23 @@ fn porous(materials: &[Material]) -> Vec<bool> {
         porous.push(is_porous(m, &porous));
     }
     if porous.contains(&true) { porous } else { Vec::new() }
+}
+
+/// What each material looks at.
+fn looks(materials: &[Material], textures: &[Texture]) -> Vec<Looks> {
+    // Textures are made of earlier ones.
+    let mut of_vertices: Vec<bool> = Vec::with_capacity(textures.len());
+    for t in textures {
+        let parts = t.parts();
+        of_vertices.push(t.asks_vertices() || parts.iter().any(|part| of_vertices[part.0 as usize]));
+    }
+    let one = |m: &Material| {
+        let own = m.textures();
+        let even = own.iter().all(|t| matches!(textures[t.0 as usize], Texture::Constant(_)));
+        let asks_vertices = own.iter().any(|t| of_vertices[t.0 as usize]);
+        Looks { at_uv: !(m.is_plain() && even), at_place_alone: m.is_plain() && !asks_vertices }
+    };
+    materials.iter().map(one).collect()
 }
 
 impl From<Quality> for accel::Quality {

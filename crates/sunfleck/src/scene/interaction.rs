@@ -1,4 +1,5 @@
 //! A point where a path meets a surface, and everything that can be asked there.
+use super::{MaterialId, Surface};
 use crate::{
     bsdf::{Bsdf, BsdfSample, Scatter, Transport, cover::Covered},
     light::{EmitterHit, LightEnd, LightId},
@@ -23,10 +24,12 @@ pub struct Interaction {
     pub wo: Vec3,
     /// Distance along the ray that came here.
     pub distance: f32,
-    /// Texture coordinates.
+    /// Texture coordinates, if the material looks at them.
     pub uv: Vec2,
     /// Scattering here.
     pub bsdf: Bsdf,
+    /// What `bsdf` was made of.
+    pub material: MaterialId,
     /// Photons are kept here. Where materials are mixed, that is so wherever one of them has a density, even if this path
     /// met another.
     pub gathers: bool,
@@ -55,14 +58,15 @@ pub struct Scattered {
 
 impl Interaction {
     #[inline(always)]
-    pub(super) fn new(s: &SurfacePoint, wo: Vec3, distance: f32, bsdf: Bsdf, light: Option<LightId>) -> Self {
+    pub(super) fn new(s: &SurfacePoint, wo: Vec3, distance: f32, bsdf: Bsdf, surface: &Surface) -> Self {
         let covered = Covered { bsdf, frame: Frame::from_normal(s.n), gathers: bsdf.is_connectible() };
-        Self::covered(s, wo, distance, &covered, light)
+        Self::covered(s, wo, distance, &covered, surface)
     }
     #[inline(always)]
-    pub(super) fn covered(s: &SurfacePoint, wo: Vec3, distance: f32, by: &Covered, light: Option<LightId>) -> Self {
+    pub(super) fn covered(s: &SurfacePoint, wo: Vec3, distance: f32, by: &Covered, surface: &Surface) -> Self {
         let Covered { bsdf, frame, gathers } = *by;
-        Self { p: s.p, p_error: s.p_error, ng: s.ng, frame, wo, distance, uv: s.uv, bsdf, gathers, light }
+        let (material, light) = (surface.material, surface.light);
+        Self { p: s.p, p_error: s.p_error, ng: s.ng, frame, wo, distance, uv: s.uv, bsdf, material, gathers, light }
     }
     /// The emitting surface that was met.
     #[inline]

@@ -7,6 +7,7 @@ mod moment;
 mod moving;
 mod parts;
 mod principled;
+mod record;
 mod surfaces;
 mod world;
 
@@ -14,6 +15,7 @@ pub use build::{Quality, SceneBuilder, SceneError, SurfaceDef};
 pub use interaction::{Interaction, Scattered};
 pub use parts::{Instance, Parts};
 pub use principled::Transmission;
+pub use record::Record;
 pub use world::{DirectSample, Sky, World};
 
 use crate::{
@@ -53,6 +55,8 @@ pub struct Scene {
     materials: Vec<Material>,
     /// Whether rays may pass it, by material; empty if no material has holes.
     porous: Vec<bool>,
+    /// What it looks at, by material.
+    looks: Vec<Looks>,
     objects: Vec<Vec<Surface>>,
     /// Those that stand still.
     lights: Vec<Light>,
@@ -61,6 +65,15 @@ pub struct Scene {
     /// Where the camera goes, if it moves.
     camera_to: Option<Camera>,
     around: Surroundings,
+}
+
+/// What a material must be told of a hit.
+#[derive(Clone, Copy, Debug)]
+struct Looks {
+    /// Texture coordinates.
+    at_uv: bool,
+    /// Nothing but the point, its texture coordinates and its normal: see [`Record`].
+    at_place_alone: bool,
 }
 
 /// What a scene holds, for summaries.

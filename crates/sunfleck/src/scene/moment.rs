@@ -4,7 +4,6 @@ use crate::{
     light::{AreaLight, Light, LightId, LightTable, Surroundings},
     shape::{Parallelogram, Shape},
 };
-use accel::Aabb;
 use glam::{Affine3A, Mat3A, Vec3};
 
 /// All geometry of the scene at one time. Objects' surfaces stay with the scene: they do not change.
@@ -94,14 +93,5 @@ impl<'a> Group<'a> {
             Shape::Parallelogram(_) => accel::Geometry::Triangles { positions: c, indices: &Parallelogram::TRIANGLES },
         };
         self.surfaces.iter().zip(&self.corners).map(one).collect()
-    }
-}
-
-/// The box around a shape.
-pub(super) fn bounds(shape: &Shape) -> Aabb {
-    match shape {
-        Shape::Mesh(m) => m.positions().iter().fold(Aabb::EMPTY, |all, &p| all.with_point(p)),
-        Shape::Parallelogram(q) => q.corners().into_iter().fold(Aabb::EMPTY, |all, p| all.with_point(p)),
-        Shape::Sphere(s) => Aabb { min: s.centre - s.radius, max: s.centre + s.radius },
     }
 }

@@ -1,7 +1,7 @@
 //! What is needed to put the scene together for one time while the shutter is open.
 use super::{
     ObjectId, Surface, SurfaceDef,
-    moment::{Moment, Placement, bounds, freeze, hierarchies},
+    moment::{Moment, Placement, freeze, hierarchies},
 };
 use crate::{
     light::{Light, Surroundings},
@@ -94,7 +94,7 @@ impl Moving {
                 Place::Moving(motion) => motion.bounds(&local),
             }
         });
-        let emitting = self.emitters.iter().map(|(s, motion)| motion.bounds(&bounds(&s.shape)));
+        let emitting = self.emitters.iter().map(|(s, motion)| motion.bounds(&s.shape.bounds()));
         placed.chain(emitting).fold(Aabb::EMPTY, |all, one| all.union(&one))
     }
     /// How many objects are placed, the world aside, and how many of them move.

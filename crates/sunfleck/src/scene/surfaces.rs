@@ -1,6 +1,6 @@
 //! What rays meet, and what covers it.
 use super::{
-    Interaction, Surface, World,
+    Interaction, Record, Surface, World,
     moment::{Moment, Placement},
 };
 use crate::{
@@ -25,12 +25,23 @@ impl World<'_> {
         let at =
             Lookup { textures: &self.scene.textures, uv: point.uv, p: point.p, lambda: self.around.lambda, attributes };
         let material = &self.scene.materials[surface.material.0 as usize];
-        let (wo, t, light) = (-ray.d, hit.t, surface.light);
+        let (wo, t) = (-ray.d, hit.t);
         if material.is_plain() {
-            return Some(Interaction::new(&point, wo, t, material.resolve(&at), light));
+            return Some(Interaction::new(&point, wo, t, material.resolve(&at), surface));
         }
         let covered = self.cover(&hit, ray, surface, &point, at);
-        Some(Interaction::covered(&point, wo, t, &covered, light))
+        Some(Interaction::covered(&point, wo, t, &covered, surface))
+    }
+    /// Whether [`World::recall`] makes `at` again from a record of it.
+    #[inline]
+    pub fn can_recall(&self, at: &Interaction) -> bool {
+        self.scene.looks[at.material.0 as usize].at_place_alone
+    }
+    /// The hit that `record` was made of, in a world of the same time and wavelengths.
+    #[inline]
+    pub fn recall(&self, record: &Record) -> Interaction {
+        let at = Lookup::new(&self.scene.textures, record.uv, record.p, self.around.lambda);
+        record.with(self.scene.materials[record.material.0 as usize].resolve(&at))
     }
     /// Whether something lies within the reach of `ray`.
     #[inline]
@@ -52,13 +63,10 @@ impl World<'_> {
     fn locate(&self, hit: &Hit, ray: &Ray) -> (&Surface, SurfacePoint) {
         let at = ray.o + hit.t * ray.d;
         let (surface, placed) = self.surface(hit);
-        let point = match placed {
-            None => surface.shape.surface_point(hit, at),
-            Some(placed) => {
-                placed.to_world(&surface.shape.surface_point(hit, placed.object_from_world.transform_point3(at)))
-            }
-        };
-        (surface, point)
+        let wants_uv = self.scene.looks[surface.material.0 as usize].at_uv;
+        let Some(placed) = placed else { return (surface, surface.shape.surface_point(hit, at, wants_uv)) };
+        let local = surface.shape.surface_point(hit, placed.object_from_world.transform_point3(at), wants_uv);
+        (surface, placed.to_world(&local))
     }
     /// What covers `surface` at `point`, where that is not a plain model.
     #[inline(never)]
@@ -79,9 +87,9 @@ impl World<'_> {
         let at = ray.o + hit.t * ray.d;
         let (surface, placed) = self.surface(hit);
         let Some(placed) = placed else {
-            return surface.shape.tangents(hit, &surface.shape.surface_point(hit, at));
+            return surface.shape.tangents(hit, &surface.shape.surface_point(hit, at, false));
         };
-        let point = surface.shape.surface_point(hit, placed.object_from_world.transform_point3(at));
+        let point = surface.shape.surface_point(hit, placed.object_from_world.transform_point3(at), false);
         let tangents = surface.shape.tangents(hit, &point)?;
         Some(tangents.map(|t| placed.world_from_object.transform_vector3(t)))
     }

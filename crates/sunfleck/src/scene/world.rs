@@ -1,8 +1,10 @@
 //! The scene as one pass sees it: at one set of wavelengths and at one time.
 use super::{Interaction, Scene, moment::Moment};
 use crate::{
+    bsdf::Bsdf,
     camera::{Camera, Project},
     light::{Emitter, LiSample, Light, LightId, Surroundings},
+    sampler::Sampler,
     spectrum::{Spectrum, Wavelengths},
 };
 use glam::{Vec2, Vec3};
@@ -83,6 +85,11 @@ impl<'s> World<'s> {
     pub fn light_prob(&self, id: LightId) -> f32 {
         self.moment.light_table.prob(id)
     }
+    /// The number for [`World::choose_light`] and [`World::sample_direct`], drawn if there is a choice.
+    #[inline]
+    pub fn light_number(&self, sampler: &mut Sampler) -> f32 {
+        if self.moment.light_table.is_one() { sampler.skip() } else { sampler.next_1d() }
+    }
     /// Chooses a light in proportion to power: `(id, probability, fresh uniform number)`. `None` if there is none.
     #[inline]
     pub fn choose_light(&self, u: f32) -> Option<(LightId, f32, f32)> {
@@ -95,6 +102,13 @@ impl<'s> World<'s> {
         let mut li = self.light(light).sample_li(from, u, &self.around)?;
         li.pdf *= prob;
         Some(DirectSample { li, light })
+    }
+    /// With which probability a walk should go on from `at` if all it can still find is a light that
+    /// [`World::sample_direct`] was asked for already: 1 where a ray may well meet one, little where lights are small and far,
+    /// which light samples find with hardly any noise. A function of the place alone, for weights to count with.
+    #[inline]
+    pub fn hit_share(&self, at: &Interaction) -> f32 {
+        if let Bsdf::Diffuse(_) = at.bsdf { self.moment.light_table.chance(at.p) } else { 1.0 }
     }
     /// Radiance leaving `at` toward where the path came from, if that surface emits.
     #[inline]

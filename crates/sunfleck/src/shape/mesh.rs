@@ -1,5 +1,5 @@
 //! Indexed triangles with optional vertex normals and texture coordinates.
-use super::{AreaSample, Attributes, SurfacePoint, gamma, plane_error};
+use super::{AreaSample, Attributes, SurfacePoint, gamma, plane_error, unit_and_length};
 use crate::math::{Discrete, warp::square_to_triangle};
 use accel::Hit;
 use glam::{Affine3A, Vec2, Vec3};
@@ -91,6 +91,7 @@ impl Mesh {
     pub fn attributes(&self) -> Option<&Attributes> {
         self.attributes.as_deref()
     }
+    #[inline]
     pub(super) fn corners<T: Copy>(&self, values: &[T], triangle: u32) -> [T; 3] {
         self.indices[triangle as usize].map(|i| values[i as usize])
     }
@@ -100,16 +101,19 @@ impl Mesh {
         let [a, b, c] = self.corners(values, hit.primitive);
         a * (1.0 - hit.u - hit.v) + b * hit.u + c * hit.v
     }
+    /// Point, error and unit normal at barycentrics.
+    #[inline]
     fn point(&self, triangle: u32, u: f32, v: f32) -> (Vec3, Vec3, Vec3) {
         let [a, b, c] = self.corners(&self.positions, triangle);
         let (pa, pb, pc) = ((1.0 - u - v) * a, u * b, v * c);
         // Barycentrics are themselves rounded; a moved barycentric moves the point within the plane only.
         let p_error = gamma(7.0) * (pa.abs() + pb.abs() + pc.abs());
-        let normal = (b - a).cross(c - a);
-        (pa + pb + pc, p_error + plane_error(b - a, c - a, normal), normal.normalize_or(Vec3::Z))
+        let (e1, e2) = (b - a, c - a);
+        let (ng, twice_area) = unit_and_length(e1.cross(e2));
+        (pa + pb + pc, p_error + plane_error(e1, e2, ng, twice_area), ng)
     }
     #[inline]
-    pub(super) fn surface_point(&self, hit: &Hit) -> SurfacePoint {
+    pub(super) fn surface_point(&self, hit: &Hit, wants_uv: bool) -> SurfacePoint {
         let (u, v) = (hit.u, hit.v);
         let (p, p_error, ng) = self.point(hit.primitive, u, v);
         let n = if self.normals.is_empty() {
@@ -119,7 +123,11 @@ impl Mesh {
             // Files disagree about which side vertex normals take; the winding decides.
             if n.dot(ng) < 0.0 { -n } else { n }
         };
-        let uv = if self.uvs.is_empty() { Vec2::new(u, v) } else { self.interpolate(&self.uvs, hit) };
+        let uv = match (wants_uv, self.uvs.is_empty()) {
+            (false, _) => Vec2::ZERO,
+            (true, true) => Vec2::new(u, v),
+            (true, false) => self.interpolate(&self.uvs, hit),
+        };
         SurfacePoint { p, p_error, ng, n, uv }
     }
     pub(super) fn area(&self) -> f32 {

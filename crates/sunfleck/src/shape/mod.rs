@@ -13,7 +13,7 @@ pub use parallelogram::Parallelogram;
 pub use sphere::Sphere;
 
 use crate::texture::VertexAttributes;
-use accel::Hit;
+use accel::{Aabb, Hit};
 use glam::{Affine3A, Vec2, Vec3};
 
 /// One of the shapes of this room.
@@ -38,7 +38,7 @@ pub struct SurfacePoint {
     pub ng: Vec3,
     /// Shading normal, unit, in the hemisphere of `ng`.
     pub n: Vec3,
-    /// Texture coordinates.
+    /// Texture coordinates, if they were asked for.
     pub uv: Vec2,
 }
 
@@ -60,16 +60,24 @@ pub(crate) fn gamma(n: f32) -> f32 {
     e / (1.0 - e)
 }
 
-/// Error to add to a point of a triangle with edges `e1` and `e2` from one corner, so that a ray started beyond it is not
-/// found to hit the triangle at a small positive distance.
+/// Error to add to a point of a triangle with edges `e1` and `e2` from one corner, unit normal `ng` and half of `twice_area`,
+/// so that a ray started beyond it is not found to hit the triangle at a small positive distance.
 ///
 /// The ray index computes distances from barycentrics, of which each edge function is off by some roundings of L², L being
 /// the longest edge. Seen along the normal that moves the plane by about ε·L·(L²/2A), however the ray grazes.
 #[inline]
-pub(crate) fn plane_error(e1: Vec3, e2: Vec3, normal: Vec3) -> Vec3 {
+pub(crate) fn plane_error(e1: Vec3, e2: Vec3, ng: Vec3, twice_area: f32) -> Vec3 {
     let l2 = e1.length_squared().max(e2.length_squared()).max((e1 - e2).length_squared());
-    let elongation = (l2 / normal.length().max(f32::MIN_POSITIVE)).min(MAX_ELONGATION);
-    gamma(PLANE_ROUNDINGS) * l2.sqrt() * elongation * normal.normalize_or(Vec3::Z).abs()
+    let elongation = (l2 / twice_area.max(f32::MIN_POSITIVE)).min(MAX_ELONGATION);
+    gamma(PLANE_ROUNDINGS) * l2.sqrt() * elongation * ng.abs()
+}
+
+/// `v` as a unit vector (`Z` if it is too short for one) and its length.
+#[inline]
+pub(crate) fn unit_and_length(v: Vec3) -> (Vec3, f32) {
+    let length = v.length();
+    let scale = length.recip();
+    (if scale.is_finite() && scale > 0.0 { scale * v } else { Vec3::Z }, length)
 }
 
 /// Roundings that [`plane_error`] allows for: four times what `tests/shape_self_hits.rs` needs.
@@ -78,12 +86,13 @@ const PLANE_ROUNDINGS: f32 = 4.0;
 const MAX_ELONGATION: f32 = 2000.0;
 
 impl Shape {
-    /// The point that `hit` describes, in the shape's own space; `o + t d` is the hit for shapes that need it.
+    /// The point that `hit` describes, in the shape's own space; `at` is the hit for shapes that need it. Texture
+    /// coordinates, which cost more than the rest, are right only with `wants_uv`.
     #[inline]
-    pub fn surface_point(&self, hit: &Hit, at: Vec3) -> SurfacePoint {
+    pub fn surface_point(&self, hit: &Hit, at: Vec3, wants_uv: bool) -> SurfacePoint {
         match self {
-            Self::Mesh(m) => m.surface_point(hit),
-            Self::Sphere(s) => s.surface_point(at),
+            Self::Mesh(m) => m.surface_point(hit, wants_uv),
+            Self::Sphere(s) => s.surface_point(at, wants_uv),
             Self::Parallelogram(q) => q.surface_point(hit),
         }
     }
@@ -102,6 +111,14 @@ impl Shape {
             Self::Mesh(m) => m.tangents(hit, s.n),
             Self::Sphere(ball) => ball.tangents(s.n),
             Self::Parallelogram(q) => Some([q.u(), q.v()]),
+        }
+    }
+    /// The box around it.
+    pub fn bounds(&self) -> Aabb {
+        match self {
+            Self::Mesh(m) => m.positions().iter().fold(Aabb::EMPTY, |all, &p| all.with_point(p)),
+            Self::Parallelogram(q) => q.corners().into_iter().fold(Aabb::EMPTY, |all, p| all.with_point(p)),
+            Self::Sphere(s) => Aabb { min: s.centre - s.radius, max: s.centre + s.radius },
         }
     }
     /// Surface area (m²).

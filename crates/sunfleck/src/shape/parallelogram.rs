@@ -1,5 +1,5 @@
 //! A flat patch `p + a u + b v` with a, b in [0, 1]: NRenderer's plane, and the usual area light.
-use super::{AreaSample, SurfacePoint, gamma, plane_error};
+use super::{AreaSample, SurfacePoint, gamma, plane_error, unit_and_length};
 use accel::Hit;
 use glam::{Affine3A, Vec2, Vec3};
 
@@ -18,10 +18,10 @@ pub struct Parallelogram {
 impl Parallelogram {
     /// The patch with corner `p` and edges `u` and `v`, which are not parallel.
     pub fn new(p: Vec3, u: Vec3, v: Vec3) -> Self {
-        let normal = u.cross(v);
+        let (ng, area) = unit_and_length(u.cross(v));
         // The bound at the far corner serves for every point.
-        let p_error = gamma(5.0) * (p.abs() + u.abs() + v.abs()) + plane_error(u, u + v, normal);
-        Self { p, u, v, ng: normal.normalize_or(Vec3::Z), area: normal.length(), p_error }
+        let p_error = gamma(5.0) * (p.abs() + u.abs() + v.abs()) + plane_error(u, u + v, ng, area);
+        Self { p, u, v, ng, area, p_error }
     }
     /// Corner.
     pub fn p(&self) -> Vec3 {

@@ -20,11 +20,16 @@ impl Sphere {
     /// The point of the surface nearest to `at`: hits are pulled onto the sphere, which makes their error independent
     /// of how far the ray came.
     #[inline]
-    pub(super) fn surface_point(&self, at: Vec3) -> SurfacePoint {
+    pub(super) fn surface_point(&self, at: Vec3, wants_uv: bool) -> SurfacePoint {
         let n = (at - self.centre).normalize_or(Vec3::Z);
+        let uv = if wants_uv { Self::uv(n) } else { Vec2::ZERO };
+        SurfacePoint { p: self.centre + self.radius * n, p_error: self.p_error(), ng: n, n, uv }
+    }
+    /// Longitude and latitude about the z axis of the unit vector `n`.
+    fn uv(n: Vec3) -> Vec2 {
         let v = n.z.clamp(-1.0, 1.0).acos() / PI;
         let u = n.y.atan2(n.x).rem_euclid(TAU) / TAU;
-        SurfacePoint { p: self.centre + self.radius * n, p_error: self.p_error(), ng: n, n, uv: Vec2::new(u, 1.0 - v) }
+        Vec2::new(u, 1.0 - v)
     }
     /// Along the circle of latitude and up the meridian, at the point with normal `n`.
     pub(super) fn tangents(&self, n: Vec3) -> Option<[Vec3; 2]> {
@@ -35,6 +40,7 @@ impl Sphere {
             [TAU * self.radius * Vec3::new(-n.y, n.x, 0.0), PI * self.radius * up]
         })
     }
+    #[inline]
     fn p_error(&self) -> Vec3 {
         gamma(6.0) * (self.centre.abs() + self.radius)
     }

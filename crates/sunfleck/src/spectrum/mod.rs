@@ -17,6 +17,7 @@ mod curve;
 mod ior;
 mod named;
 mod observer;
+mod packed;
 mod uplift;
 mod wavelengths;
 
@@ -24,6 +25,7 @@ pub use colour::{Colour, Illuminant};
 pub use curve::{CHANNELS_NM, Curve, CurveError};
 pub use ior::Ior;
 pub use named::{NAMED, Named, named};
+pub use packed::PackedSpectrum;
 pub use wavelengths::{ColorMode, NM_MAX, NM_MIN, Wavelengths};
 
 use glam::{Vec3, Vec4};

@@ -129,6 +129,10 @@ impl Texture {
             Self::Vertex(t) => t.value(at),
         }
     }
+    /// Whether it looks itself at what only a mesh's vertices know: see [`VertexAttributes`].
+    pub(crate) fn asks_vertices(&self) -> bool {
+        matches!(self, Self::Vertex(_) | Self::Mapped(Mapped { set: UvSet::Second, .. }))
+    }
     /// The textures it is made of.
     pub fn parts(&self) -> Vec<TextureId> {
         match self {

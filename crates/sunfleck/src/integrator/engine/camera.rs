@@ -3,11 +3,12 @@ use super::{
     gather::gather,
     joins::{Joins, LastLeg},
     lamps::{Chain, Lamps, is_small},
-    light::{Photon, Subpaths},
+    light::Subpaths,
     mis::{Leg, Rule, Sums},
     plan::Plan,
     techniques::Technique,
     track::Track,
+    vertex::Photon,
 };
 use crate::{
     bsdf::Transport,
@@ -65,6 +66,8 @@ pub(super) struct Look<'w> {
     chain: Option<Chain>,
     /// The first surface was a mirror or glass.
     mirrored: bool,
+    /// [`Joins::hit_share`] of the last vertex.
+    hit_share: f32,
     /// Where the current leg began.
     from: Vec3,
     sum: Spectrum,
@@ -89,6 +92,7 @@ impl<'w> Look<'w> {
             track: Track::new(),
             chain: Some(Chain::new()),
             mirrored: false,
+            hit_share: 1.0,
             from: start.from,
             sum: Spectrum::BLACK,
             rays: 0,
@@ -142,20 +146,24 @@ impl Visit for Look<'_> {
         }
         let sums = self.track.arrive_from_camera(&self.rule, self.pixel, a.scatterings, a.at);
         self.meet(a, &sums);
-        // Drawn at every vertex, so that the dimensions of what follows do not depend on the material.
-        let (u_light, u) = (sampler.next_1d(), sampler.next_2d());
         let first_only = self.rule.on.merge.at_first_only();
         if first_only && !a.delta {
             return Step::Stop;
         }
         self.track.sums = sums;
         self.from = a.at.p;
+        // What is not drawn is skipped, so that the dimensions of what follows do not depend on the material.
         if a.scatterings >= eye.limits.scatterings || !a.at.is_connectible() {
+            sampler.skip_many(2);
             return Step::On;
         }
         let rough = self.rule.rough(&sums);
+        self.hit_share = if first_only { eye.world.hit_share(a.at) } else { 1.0 };
         if self.rule.on.nee {
+            let (u_light, u) = (eye.world.light_number(sampler), sampler.next_2d());
             self.choose_light(a, &rough, u_light, u);
+        } else {
+            sampler.skip_many(2);
         }
         if self.rule.on.connect {
             self.connect(a, &rough);
@@ -163,7 +171,10 @@ impl Visit for Look<'_> {
         if self.rule.on.merge.is_on() && sums.shared > 0.0 {
             self.gather(a, &rough);
         }
-        if first_only && !self.rule.on.nee { Step::OnIfDelta } else { Step::On }
+        // Past the first gather, the walk goes on for lights that next-event estimation finds badly, and for nothing else.
+        let goes_on =
+            !first_only || (self.rule.on.nee && (self.hit_share >= 1.0 || sampler.next_1d() < self.hit_share));
+        if goes_on { Step::On } else { Step::OnIfDelta }
     }
     #[inline]
     fn scatter(&mut self, at: &Interaction, s: &Scattered) {
@@ -187,7 +198,7 @@ impl Visit for Look<'_> {
             } else {
                 self.joins().sky(&sums, LastLeg::new(self.from, e.pdf, e.delta), e.ray.d, &sky)
             };
-            self.add(Technique::Hit, e.beta * sky.le, weight);
+            self.add(Technique::Hit, e.beta * sky.le * self.rarity(e.delta), weight);
         }
     }
 }
@@ -195,7 +206,19 @@ impl Visit for Look<'_> {
 impl Look<'_> {
     #[inline]
     fn joins(&self) -> Joins<'_> {
-        Joins { world: self.eye.world, source: self.eye.source, rule: &self.rule, eta: self.eta }
+        Joins {
+            world: self.eye.world,
+            source: self.eye.source,
+            rule: &self.rule,
+            eta: self.eta,
+            hit_share: self.hit_share,
+        }
+    }
+
+    /// What a light is multiplied by that the last leg met: walks along other than delta lobes may have been let go on rarely.
+    #[inline]
+    fn rarity(&self, delta: bool) -> f32 {
+        if delta { 1.0 } else { self.hit_share.recip() }
     }
 
     /// The surface may be a light.
@@ -213,7 +236,7 @@ impl Look<'_> {
         } else {
             self.joins().hit(sums, LastLeg::new(self.from, a.pdf, a.delta), a.at)
         };
-        self.add(Technique::Hit, a.beta * le, weight);
+        self.add(Technique::Hit, a.beta * le * self.rarity(a.delta), weight);
     }
 
     /// Next-event estimation.
@@ -238,24 +261,33 @@ impl Look<'_> {
     #[inline]
     fn connect(&mut self, a: &Arrival, sums: &Sums) {
         let eye = self.eye;
-        for v in eye.subpaths.path(self.partner) {
-            if a.scatterings + v.scatterings + 2 > eye.limits.scatterings {
+        let (among, path) = eye.subpaths.path(self.partner);
+        for v in path {
+            if a.scatterings + v.scatterings() + 2 > eye.limits.scatterings {
                 break;
             }
-            let to = v.at.p - a.at.p;
+            let to = v.place.p - a.at.p;
             let d2 = to.length_squared();
             let Some(wi) = to.try_normalize() else { continue };
-            let f = a.at.f_cos(wi, Transport::Radiance) * v.at.f_cos(-wi, Transport::Flux);
+            if !v.place.sides_agree(-wi) {
+                continue;
+            }
+            let f = a.at.f_cos(wi, Transport::Radiance);
+            if f.is_black() {
+                continue;
+            }
+            let end = among.end(eye.world, v);
+            let f = f * end.at.f_cos(-wi, Transport::Flux);
             if f.is_black() {
                 continue;
             }
             self.rays += 1;
-            if eye.world.occluded(&a.at.spawn_to_surface(wi, &v.at)) {
+            if eye.world.occluded(&a.at.spawn_to_surface(wi, &end.at)) {
                 continue;
             }
-            let weight = self.joins().connect(sums, a.at, v, wi, d2);
-            let join = Spectrum::join(a.dispersed, v.dispersed);
-            self.add(Technique::Connect, a.beta * f * v.flux * (join / d2), weight);
+            let weight = self.joins().connect(sums, a.at, &end, wi, d2);
+            let join = Spectrum::join(a.dispersed, v.dispersed());
+            self.add(Technique::Connect, a.beta * f * v.flux() * (join / d2), weight);
         }
     }
 

@@ -1,5 +1,5 @@
 //! Density estimation with a weight for each photon.
-use super::{light::Photon, weights::Between};
+use super::{vertex::Photon, weights::Between};
 use crate::{
     bsdf::{Bsdf, Transport},
     photon::{CameraEnd, Disc, RadiusMap},

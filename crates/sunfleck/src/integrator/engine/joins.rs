@@ -1,7 +1,7 @@
 //! What weights are told: the densities where a path ends on a light and where two subpaths are joined.
 use super::{
-    light::LightVertex,
     mis::{LightStart, Rule, Sums},
+    vertex::{self, LightSums},
     weights::Joint,
 };
 use crate::{
@@ -20,6 +20,8 @@ pub(super) struct Joins<'w> {
     pub(super) rule: &'w Rule,
     /// [`Rule::eta`] of the radius.
     pub(super) eta: f32,
+    /// Probability of walking on to a hit where next-event estimation was tried (see [`World::hit_share`]).
+    pub(super) hit_share: f32,
 }
 
 /// The last leg of a camera path that met a light.
@@ -41,14 +43,14 @@ impl Joins<'_> {
     /// Weight of meeting the surface `at`, a light.
     #[inline]
     pub(super) fn hit(&self, sums: &Sums, leg: LastLeg, at: &Interaction) -> f32 {
-        let direct = leg.pdf.map_or(0.0, |pdf| self.world.pdf_direct(leg.from, -at.wo, at) / pdf);
+        let direct = leg.pdf.map_or(0.0, |pdf| self.world.pdf_direct(leg.from, -at.wo, at) / (pdf * self.hit_share));
         let emitted = |light| self.source.pdf(self.world, light, Some(&at.emitter_hit()), at.p, at.wo);
         self.rule.hit_weight(sums, direct, at.light.map_or(0.0, emitted), self.eta)
     }
     /// Weight of leaving the scene toward `d`, where `sky` is.
     #[inline]
     pub(super) fn sky(&self, sums: &Sums, leg: LastLeg, d: Vec3, sky: &Sky) -> f32 {
-        let direct = leg.pdf.map_or(0.0, |pdf| sky.pdf_direct / pdf);
+        let direct = leg.pdf.map_or(0.0, |pdf| sky.pdf_direct / (pdf * self.hit_share));
         let emitted = self.source.pdf(self.world, sky.light, None, leg.from, -d);
         self.rule.hit_weight(sums, direct, emitted, self.eta)
     }
@@ -64,13 +66,14 @@ impl Joins<'_> {
         };
         let emitted = self.source.pdf(self.world, d.light, hit.as_ref(), at.p, -li.wi);
         let emitted_over_pdf = emitted * at.true_cos(li.wi) / (li.pdf * to_emission);
-        let hit_over_pdf = if self.world.light(d.light).is_delta() { 0.0 } else { at.pdf(li.wi) / li.pdf };
+        let hit_over_pdf =
+            if self.world.light(d.light).is_delta() { 0.0 } else { self.hit_share * at.pdf(li.wi) / li.pdf };
         self.rule.nee_weight(sums, hit_over_pdf, emitted_over_pdf, at.pdf_back(li.wi), self.eta)
     }
     /// Weight of the connection from `at` toward `wi` to `v`, the square of `d2` away.
     #[inline]
-    pub(super) fn connect(&self, sums: &Sums, at: &Interaction, v: &LightVertex, wi: Vec3, d2: f32) -> f32 {
-        let light = Joint { sums: &v.sums, area: at.pdf(wi) * v.at.true_cos(wi) / d2, back: v.at.pdf_back(-wi) };
+    pub(super) fn connect(&self, sums: &Sums, at: &Interaction, v: &vertex::LightEnd, wi: Vec3, d2: f32) -> f32 {
+        let light = Joint { sums: v.sums, area: at.pdf(wi) * v.at.true_cos(wi) / d2, back: v.at.pdf_back(-wi) };
         let camera = Joint { sums, area: v.at.pdf(-wi) * at.true_cos(wi) / d2, back: at.pdf_back(wi) };
         self.rule.connect_weight(&camera, &light, v.merges, self.eta)
     }
@@ -110,7 +113,7 @@ impl Rule {
     /// [`Rule::merges`] of it.
     pub(super) fn lens(
         &self,
-        sums: &Sums,
+        sums: &LightSums,
         at: &Interaction,
         c: &CameraSample,
         pixels: usize,

@@ -5,16 +5,16 @@ use super::{
     mis::{Leg, Rule, Sums},
     techniques::{Merge, Technique},
     track::Track,
+    vertex::{LightVertex, Photon, Vertices},
 };
 use crate::{
     bsdf::Transport,
     camera::{CameraSample, Project},
     film::{Counts, FilmSpec, PassImage, Splat},
-    integrator::Pass,
+    integrator::{Pass, eye_ray::lens_point},
     photon::{Emission, Radii, Source},
     sampler::{Domain, Sampler},
     scene::{Interaction, Scattered, World},
-    spectrum::Spectrum,
     walk::{Arrival, Limits, Step, Visit, walk},
 };
 use glam::{Vec2, Vec3};
@@ -43,59 +43,13 @@ pub(super) struct Shower<'w> {
     pub(super) only: Option<Only>,
 }
 
-/// Flux on its way, kept for gathers. Its position is kept by the index that finds it.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Photon {
-    /// Flux (W) that arrives, over the number of paths.
-    pub(super) flux: Spectrum,
-    /// Unit direction back to where it came from.
-    pub(super) wi: Vec3,
-    /// Scatterings since the light.
-    pub(super) scatterings: u16,
-    /// Some boundary on its way parted the wavelengths.
-    pub(super) dispersed: bool,
-    /// It came from a mirror or through glass last.
-    pub(super) caustic: bool,
-    pub(super) sums: PhotonSums,
-}
-
-/// What a photon needs of [`Sums`].
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PhotonSums {
-    pub(super) vcm: f32,
-    pub(super) vc: f32,
-    pub(super) vm: f32,
-    pub(super) geometry: f32,
-}
-
-impl From<&Sums> for PhotonSums {
-    fn from(s: &Sums) -> Self {
-        Self { vcm: s.vcm, vc: s.vc, vm: s.vm(), geometry: s.geometry }
-    }
-}
-
-/// A vertex kept for connections.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LightVertex {
-    pub(super) at: Interaction,
-    /// Flux (W) that arrives, as of one path.
-    pub(super) flux: Spectrum,
-    pub(super) scatterings: u32,
-    /// Some boundary on the way parted the wavelengths.
-    pub(super) dispersed: bool,
-    /// [`Rule::merges`] of it.
-    pub(super) merges: f32,
-    pub(super) sums: Sums,
-}
-
 /// All light subpaths of a pass.
 #[derive(Default)]
 pub(super) struct Subpaths {
     pub(super) positions: Vec<Vec3>,
     pub(super) photons: Vec<Photon>,
-    pub(super) vertices: Vec<LightVertex>,
-    /// End of each path's vertices.
-    ends: Vec<u32>,
+    /// Those of [`CHUNK`] paths each.
+    vertices: Vec<Vertices>,
 }
 
 impl Subpaths {
@@ -103,13 +57,13 @@ impl Subpaths {
     pub(super) fn bytes(&self) -> usize {
         // The index holds a copy of each photon and some twenty bytes of its own.
         let photon = 2 * (size_of::<Photon>() + size_of::<Vec3>()) + 20;
-        self.photons.len() * photon + size_of_val(self.vertices.as_slice()) + size_of_val(self.ends.as_slice())
+        self.photons.len() * photon + self.vertices.iter().map(Vertices::bytes).sum::<usize>()
     }
-    /// The vertices of path `i`.
+    /// The vertices of path `i`, and what they are among.
     #[inline]
-    pub(super) fn path(&self, i: usize) -> &[LightVertex] {
-        let from = if i == 0 { 0 } else { self.ends[i - 1] };
-        &self.vertices[from as usize..self.ends[i] as usize]
+    pub(super) fn path(&self, i: usize) -> (&Vertices, &[LightVertex]) {
+        let among = &self.vertices[i / CHUNK as usize];
+        (among, among.path(i % CHUNK as usize))
     }
 }
 
@@ -146,7 +100,7 @@ impl Shower<'_> {
             out.counts.rays += rays;
             out.counts.light_rays += rays;
         }
-        out.ends.push(out.vertices.len() as u32);
+        out.vertices.end_path();
     }
 }
 
@@ -154,8 +108,7 @@ impl Shower<'_> {
 struct Chunk {
     positions: Vec<Vec3>,
     photons: Vec<Photon>,
-    vertices: Vec<LightVertex>,
-    ends: Vec<u32>,
+    vertices: Vertices,
     splats: Vec<Splat>,
     counts: Counts,
 }
@@ -165,19 +118,16 @@ fn join(chunks: Vec<Chunk>, image: &mut PassImage) -> Subpaths {
     let mut all = Subpaths {
         positions: Vec::with_capacity(sum(|c| c.positions.len())),
         photons: Vec::with_capacity(sum(|c| c.photons.len())),
-        vertices: Vec::with_capacity(sum(|c| c.vertices.len())),
-        ends: Vec::with_capacity(sum(|c| c.ends.len())),
+        vertices: Vec::with_capacity(chunks.len()),
     };
+    image.counts.stored += sum(|c| c.photons.len() + c.vertices.len()) as u64;
     for c in chunks {
-        let before = all.vertices.len() as u32;
         all.positions.extend_from_slice(&c.positions);
         all.photons.extend_from_slice(&c.photons);
-        all.vertices.extend_from_slice(&c.vertices);
-        all.ends.extend(c.ends.iter().map(|e| before + e));
+        all.vertices.push(c.vertices);
         image.splat(&c.splats);
         image.counts += c.counts;
     }
-    image.counts.stored += (all.photons.len() + all.vertices.len()) as u64;
     all
 }
 
@@ -198,8 +148,8 @@ impl Visit for Shine<'_, '_> {
         let sums = if a.scatterings == 0 { self.leave(a.at) } else { self.track.after(rule, Leg::to(a.at)) };
         self.track.sums = sums;
         self.merges = rule.merges(a.scatterings, a.delta);
-        // Drawn at every vertex, so that what follows does not depend on the material.
-        let u_lens = if rule.on.light_image { sampler.next_2d() } else { glam::Vec2::ZERO };
+        // At every vertex, so that what follows does not depend on the material.
+        let u_lens = if rule.on.light_image { lens_point(self.shower.world, sampler) } else { Vec2::ZERO };
         if self.shower.limits.scatterings == 0 {
             return Step::On;
         }
@@ -210,8 +160,7 @@ impl Visit for Shine<'_, '_> {
             return Step::On;
         }
         if rule.on.connect {
-            let (flux, scatterings, dispersed, merges) = (a.beta, a.scatterings, a.dispersed, self.merges);
-            self.out.vertices.push(LightVertex { at: *a.at, flux, scatterings, dispersed, merges, sums });
+            self.out.vertices.push(self.shower.world, a, &sums, self.merges);
         }
         if rule.images(a.scatterings) {
             self.splat(a, &sums, u_lens);
@@ -263,6 +212,6 @@ impl Shine<'_, '_> {
     fn light_image_weight(&self, a: &Arrival, s: &Sums, c: &CameraSample) -> f32 {
         let shower = self.shower;
         let eta = shower.rule.eta(shower.shrink * shower.radii.at(c.raster));
-        shower.rule.lens(s, a.at, c, shower.spec.pixels(), self.merges, eta)
+        shower.rule.lens(&s.into(), a.at, c, shower.spec.pixels(), self.merges, eta)
     }
 }

@@ -20,6 +20,7 @@ mod techniques;
 #[cfg(test)]
 mod tests;
 mod track;
+mod vertex;
 mod weights;
 
 pub use techniques::{Fit, Heuristic, Merge, Technique, Techniques};
@@ -266,6 +267,12 @@ impl Job<'_> {
     fn count(&self) -> u64 {
         self.paths.end - self.paths.start
     }
+    /// The light path that camera path `pixel` is connected to, among [`Job::paths`]. Pixel by pixel they are read in the order
+    /// in which they are kept; where that begins is different in each pass.
+    fn partner(&self, pixel: u32) -> usize {
+        let first = (self.pass.seed ^ self.sample).wrapping_mul(0x9e37_79b9_7f4a_7c15) >> 32;
+        ((u64::from(pixel) + first) % self.count().max(1)) as usize
+    }
 }
 
 impl Prepared<'_> {
@@ -328,12 +335,11 @@ impl Prepared<'_> {
         let small_lamps = world.lights().any(|l| is_small(&world, l));
         image.fill(|x, y, counts| {
             let mut ray = EyeRay::new(&world, spec, &job.pass, job.sample, (x, y));
-            let partner = if rule.on.connect { ray.sampler.next_1d() * rule.paths } else { 0.0 };
             let start = EyeStart {
                 raster: ray.raster,
                 from: ray.camera.ray.o,
                 pixel: ray.camera.spread.of_pixel(spec.pixels()),
-                partner: (partner as usize).min(job.count().saturating_sub(1) as usize),
+                partner: job.partner(x + y * spec.width),
             };
             let mut look = Look::new(&eye, start, counts);
             let (limits, start_ray) = (&self.engine.limits, ray.start());

@@ -3,8 +3,8 @@
 //! In each, `eta` is [`Rule::eta`] with the radius of the pixel, and a weight is `1 / (1 + what the light's side has + what
 //! the camera's side has)` (Georgiev 2012, eqs. 38 to 48).
 use super::{
-    light::PhotonSums,
     mis::{Rule, Sums},
+    vertex::LightSums,
 };
 
 /// Densities (1/sr) of scattering at a vertex between its two neighbours.
@@ -50,25 +50,25 @@ impl Rule {
     /// A light vertex connected to the lens. `camera_area`: density (1/m²) of one camera path of the pixel at the vertex;
     /// `back`: density (1/sr) at the vertex from the lens to the light's side; `merges`: [`Rule::merges`] of the vertex.
     #[inline]
-    pub(super) fn light_image_weight(&self, s: &Sums, camera_area: f32, back: f32, merges: f32, eta: f32) -> f32 {
+    pub(super) fn light_image_weight(&self, s: &LightSums, camera_area: f32, back: f32, merges: f32, eta: f32) -> f32 {
         let h = self.heuristic;
         let sharing = self.sharing(back * s.geometry);
-        let others = eta * merges + s.vcm + h.of(back) * (s.vc + eta * sharing * s.vm());
+        let others = eta * merges + s.vcm + h.of(back) * (s.vc + eta * sharing * s.vm);
         weight(h.of(camera_area / self.paths) * others)
     }
 
     /// A camera vertex connected to a light vertex. `to_light`, `to_camera`: density (1/m²) of the one subpath's last vertex
     /// as drawn from the other's; `merges`: [`Rule::merges`] of the light vertex.
     #[inline]
-    pub(super) fn connect_weight(&self, camera: &Joint, light: &Joint, merges: f32, eta: f32) -> f32 {
+    pub(super) fn connect_weight(&self, camera: &Joint<Sums>, light: &Joint<LightSums>, merges: f32, eta: f32) -> f32 {
         let h = self.heuristic;
         let (c, l) = (camera.sums, light.sums);
         // Photons of the camera vertex come from the light vertex.
         let camera_merges = self.merges(1, false) * c.shared;
         let light_shared = c.shared * self.sharing(light.area);
         let farther = light_shared * self.sharing(light.back * l.geometry);
-        let on_light = h.of(light.area)
-            * (eta * merges * light_shared + l.vcm + h.of(light.back) * (l.vc + eta * farther * l.vm()));
+        let on_light =
+            h.of(light.area) * (eta * merges * light_shared + l.vcm + h.of(light.back) * (l.vc + eta * farther * l.vm));
         let on_camera =
             h.of(camera.area) * (eta * camera_merges + c.vcm + c.image + h.of(camera.back) * (c.vc() + eta * c.vm()));
         weight(on_light + on_camera)
@@ -79,7 +79,7 @@ impl Rule {
     pub(super) fn merge_weight(
         &self,
         camera: &Sums,
-        photon: &PhotonSums,
+        photon: &LightSums,
         scatterings: u32,
         at: Between,
         eta: f32,
@@ -95,9 +95,9 @@ impl Rule {
 
 /// One end of a connection.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Joint<'s> {
+pub(super) struct Joint<'s, S> {
     /// Sums of its subpath.
-    pub(super) sums: &'s Sums,
+    pub(super) sums: &'s S,
     /// Density (1/m²) with which the other subpath would have drawn this vertex.
     pub(super) area: f32,
     /// Density (1/sr) from the other subpath to this one's past.

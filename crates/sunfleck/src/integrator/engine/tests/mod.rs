@@ -6,9 +6,9 @@ mod scenes;
 use super::{
     Engine, Heuristic, Merge, Techniques,
     joins::{Departed, Joins, LastLeg},
-    light::LightVertex,
     mis::{Leg, Rule, Sums},
     track::Track,
+    vertex::{LightEnd as KeptEnd, LightVertex, Vertices},
     weights::Between,
 };
 use crate::{
@@ -21,7 +21,7 @@ use crate::{
     scene::{DirectSample, Interaction, MID_SHUTTER, Scattered, World},
     shape::AreaSample,
     spectrum::{Spectrum, Wavelengths},
-    walk::Limits,
+    walk::{Arrival, Limits},
 };
 use glam::Vec3;
 use paths::{End, Path};
@@ -39,13 +39,21 @@ struct Setting<'w> {
     source: &'w Source,
 }
 
+/// The light's subpath of a path: the vertex nearest to the camera first.
+struct LightSide {
+    among: Vertices,
+    kept: Vec<LightVertex>,
+}
+
 /// A sampler and its weight.
 type Weight = (String, f32);
 
 impl Setting<'_> {
     fn joins(&self, path: &Path) -> Joins<'_> {
         let eta = self.rule.eta(self.radii.at(path.raster));
-        Joins { world: self.world, source: self.source, rule: &self.rule, eta }
+        // Only walks that end after their first gather choose whether to go on to a light.
+        let hit_share = if self.rule.on.merge.at_first_only() { 0.3 } else { 1.0 };
+        Joins { world: self.world, source: self.source, rule: &self.rule, eta, hit_share }
     }
 
     /// The sums of the camera's subpath on arrival at each vertex, and on arrival at the light.
@@ -67,23 +75,25 @@ impl Setting<'_> {
     }
 
     /// The light's subpath: its vertices as they would be kept, that nearest to the camera first.
-    fn light_vertices(&self, path: &Path) -> Vec<LightVertex> {
+    fn light_side(&self, path: &Path) -> LightSide {
         let mut track = Track::new();
         let mut delta = true;
-        let mut kept: Vec<LightVertex> = (path.vertices.iter().enumerate().rev())
-            .map(|(i, v)| {
-                let at = Interaction { wo: v.wi, distance: path.leg_after(i), ..v.at };
-                let scatterings = (path.vertices.len() - 1 - i) as u32;
-                let sums = if scatterings == 0 { self.reach(path, &at) } else { track.after(&self.rule, Leg::to(&at)) };
-                track.sums = sums;
-                let merges = self.rule.merges(scatterings, delta);
-                track.depart_from_light(&self.rule, &at, &scattered(&at, v.at.wo, v.delta), merges);
-                delta = v.delta;
-                LightVertex { at, flux: Spectrum::ONE, scatterings, dispersed: false, merges, sums }
-            })
-            .collect();
-        kept.reverse();
-        kept
+        let mut among = Vertices::default();
+        for (i, v) in path.vertices.iter().enumerate().rev() {
+            let at = Interaction { wo: v.wi, distance: path.leg_after(i), ..v.at };
+            let scatterings = (path.vertices.len() - 1 - i) as u32;
+            let sums = if scatterings == 0 { self.reach(path, &at) } else { track.after(&self.rule, Leg::to(&at)) };
+            track.sums = sums;
+            let merges = self.rule.merges(scatterings, delta);
+            track.depart_from_light(&self.rule, &at, &scattered(&at, v.at.wo, v.delta), merges);
+            delta = v.delta;
+            let (beta, pdf, all_delta, dispersed, travelled) = (Spectrum::ONE, 1.0, false, false, 0.0);
+            let arrival = Arrival { at: &at, beta, scatterings, pdf, delta, all_delta, dispersed, travelled };
+            among.push(self.world, &arrival, &sums, merges);
+        }
+        among.end_path();
+        let kept = among.path(0).iter().rev().copied().collect();
+        LightSide { among, kept }
     }
     fn reach(&self, path: &Path, at: &Interaction) -> Sums {
         let hit = if let End::Surface(q) = &path.end { Some(q.emitter_hit()) } else { None };
@@ -105,11 +115,11 @@ impl Setting<'_> {
     /// Every sampler that finds the path, with its weight.
     fn weights(&self, path: &Path) -> Vec<Weight> {
         let (camera, at_light) = self.camera_sums(path);
-        let light = self.light_vertices(path);
+        let light = self.light_side(path);
         let mut all = self.of_lights(path, &camera, &at_light);
         all.extend(self.of_lens(path, &light));
         all.extend(self.of_connections(path, &camera, &light));
-        all.extend(self.of_merging(path, &camera, &light));
+        all.extend(self.of_merging(path, &camera, &light.kept));
         all
     }
     fn of_lights(&self, path: &Path, camera: &[Sums], at_light: &Sums) -> Vec<Weight> {
@@ -154,23 +164,25 @@ impl Setting<'_> {
         };
         DirectSample { li: LiSample { wi, li: Spectrum::ONE, pdf, delta: false, end }, light }
     }
-    fn of_lens(&self, path: &Path, light: &[LightVertex]) -> Option<Weight> {
-        let v = &light[0];
-        if !self.rule.images(v.scatterings) || path.vertices[0].delta {
+    fn of_lens(&self, path: &Path, light: &LightSide) -> Option<Weight> {
+        let v = &light.kept[0];
+        if !self.rule.images(v.scatterings()) || path.vertices[0].delta {
             return None;
         }
-        let c = self.world.camera().sample_wi(v.at.p, path.u_lens).expect("a vertex that the camera sees");
+        let KeptEnd { at, sums, merges } = light.among.end(self.world, v);
+        let c = self.world.camera().sample_wi(at.p, path.u_lens).expect("a vertex that the camera sees");
         let eta = self.rule.eta(self.radii.at(c.raster));
-        Some(("light image".to_owned(), self.rule.lens(&v.sums, &v.at, &c, SPEC.pixels(), v.merges, eta)))
+        Some(("light image".to_owned(), self.rule.lens(sums, &at, &c, SPEC.pixels(), merges, eta)))
     }
-    fn of_connections(&self, path: &Path, camera: &[Sums], light: &[LightVertex]) -> Vec<Weight> {
+    fn of_connections(&self, path: &Path, camera: &[Sums], light: &LightSide) -> Vec<Weight> {
         let joins = self.joins(path);
         let connect = |i: usize| {
             let (v, next) = (&path.vertices[i], &path.vertices[i + 1]);
             (self.rule.on.connect && !v.delta && !next.delta).then(|| {
                 let d2 = path.leg_after(i).powi(2);
                 let sums = self.rule.rough(&camera[i]);
-                (format!("connection {i}"), joins.connect(&sums, &v.at, &light[i + 1], v.wi, d2))
+                let end = light.among.end(self.world, &light.kept[i + 1]);
+                (format!("connection {i}"), joins.connect(&sums, &v.at, &end, v.wi, d2))
             })
         };
         (0..path.vertices.len() - 1).filter_map(connect).collect()
@@ -181,20 +193,14 @@ impl Setting<'_> {
             let (v, photon) = (&path.vertices[i], &light[i]);
             // What a light sends out counts as from a delta lobe.
             let delta = path.vertices.get(i + 1).is_none_or(|v| v.delta);
-            let caustic = delta && photon.scatterings > 0;
-            let kept = rule.on.merge.takes(photon.scatterings, delta) && rule.gathers(caustic);
+            let caustic = delta && photon.scatterings() > 0;
+            let kept = rule.on.merge.takes(photon.scatterings(), delta) && rule.gathers(caustic);
             (kept && !v.delta && camera[i].shared > 0.0 && self.comes_to(path, i)).then(|| {
                 let at = Between { forward: v.at.pdf(v.wi), back: v.at.pdf_back(v.wi) };
                 let weight = if rule.on.merge.at_first_only() {
                     1.0
                 } else {
-                    rule.merge_weight(
-                        &rule.rough(&camera[i]),
-                        &(&photon.sums).into(),
-                        photon.scatterings,
-                        at,
-                        joins.eta,
-                    )
+                    rule.merge_weight(&rule.rough(&camera[i]), &photon.sums, photon.scatterings(), at, joins.eta)
                 };
                 (format!("merging {i}"), weight)
             })
