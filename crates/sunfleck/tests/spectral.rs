@@ -91,11 +91,10 @@ fn each_pass_over_a_grey_room_is_its_picture_by_rgb_in_the_colour_of_its_wavelen
             let lambda = ColorMode::Spectral.wavelengths(1, index);
             let white = Illuminant::from(Rgb::ONE).at(lambda).to_rgb(lambda);
             for (a, b) in spectral.iter().zip(rgb) {
-                assert!(
-                    (*a - b * white).abs().max_element() <= 1e-4 * (b.x * white).abs().max_element(),
-                    "{}",
-                    entry.name
-                );
+                let error = (*a - b * white).abs().max_element();
+                // A pass of sppm is a difference of sums, which rounds to some 1e-7 where the pass itself adds nothing.
+                let allowed = 1e-4 * (b.x * white).abs().max_element() + 1e-6;
+                assert!(error <= allowed, "{} {index}: {a} is not {white} times {b}", entry.name);
             }
         }
     }
