@@ -3,7 +3,11 @@
 //! Ylitie, Karras & Laine 2017, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", section 4.2:
 //! for each binary node, the least cost of representing its subtree as a forest of at most i roots, i = 1..7.
 
-use super::{node::Child, triangle::LANES};
+use super::{
+    cells::Stored,
+    node::{Child, Node},
+    triangle::{Block, LANES},
+};
 
 /// Expected cost of visiting one node, in units of testing one block of triangles.
 const NODE_COST: f32 = 1.0;
@@ -39,6 +43,11 @@ pub(super) struct Size {
 }
 
 impl Size {
+    /// Cells of the table.
+    pub(super) fn cells(self) -> u32 {
+        self.nodes * Node::CELLS + self.blocks * Block::CELLS
+    }
+
     fn plus(self, other: Self) -> Self {
         Self { nodes: self.nodes + other.nodes, blocks: self.blocks + other.blocks }
     }

@@ -3,7 +3,8 @@
 use super::{
     Geometry,
     build::Binary,
-    collapse::Plan,
+    cells::{Cell, Places, Stored},
+    collapse::{Plan, Size},
     node::{Child, Node, WIDTH},
     refs::Owner,
     triangle::{Block, LANES},
@@ -11,111 +12,133 @@ use super::{
 use crate::memory::large_vec;
 use glam::Vec4Swizzles;
 use rayon::prelude::*;
-use std::mem::MaybeUninit;
 
 /// Subtrees with more wide nodes than this are written in parallel.
 const PARALLEL: u32 = 1024;
 
-/// The wide tables of one object; node 0 is the root.
-pub(super) struct Wide {
-    pub(super) nodes: Vec<Node>,
-    pub(super) blocks: Vec<Block>,
+/// Cells of a page of memory: 4 KiB.
+const PAGE: u32 = 128;
+
+/// A binary node whose wide node has no place yet.
+struct Open {
+    at: usize,
+    /// Which node of the top names it in which slot.
+    parent: Option<(usize, usize)>,
 }
 
-/// A binary subtree that becomes one wide node and its descendants, and the places where they go.
+/// A binary subtree that becomes one wide node and its descendants, and the cells where they go.
 struct Job<'a> {
     at: usize,
-    nodes: Places<'a, Node>,
-    blocks: Places<'a, Block>,
+    cells: Places<'a>,
 }
 
-/// Consecutive unwritten places of a table.
-struct Places<'a, T> {
-    first: u32,
-    places: &'a mut [MaybeUninit<T>],
-}
-
-impl<T> Places<'_, T> {
-    /// Takes the first `count` places away.
-    fn take(&mut self, count: u32) -> Self {
-        let (taken, rest) = std::mem::take(&mut self.places).split_at_mut(count as usize);
-        self.places = rest;
-        let first = self.first;
-        self.first += count;
-        Self { first, places: taken }
-    }
-}
-
-/// The wide hierarchy of a binary one, which may be empty.
-pub(super) fn emit(binary: &[Binary], geometries: &[Geometry]) -> Wide {
-    let Some(root) = binary.first() else { return Wide { nodes: vec![Node::EMPTY], blocks: Vec::new() } };
-    let (node_count, block_count) = (root.size.nodes.max(1) as usize, root.size.blocks as usize);
-    let (mut nodes, mut blocks) = (large_vec(node_count), large_vec(block_count));
-    let emitter = Emitter { binary, geometries };
-    let job = Job {
-        at: 0,
-        nodes: Places { first: 0, places: &mut nodes.spare_capacity_mut()[..node_count] },
-        blocks: Places { first: 0, places: &mut blocks.spare_capacity_mut()[..block_count] },
+/// The wide hierarchy of a binary one, which may be empty; its root lies at cell 0. `firsts` are the first numbers of the
+/// geometries.
+pub(super) fn emit(binary: &[Binary], geometries: &[Geometry], firsts: &[u32]) -> Vec<Cell> {
+    let (root_is_leaf, size) = match binary.first() {
+        Some(root) => (root.plan.is_leaf(), root.size),
+        None => (true, Size::default()),
     };
-    if root.plan.is_leaf() {
-        emitter.single_leaf(job);
+    let count = (size.cells() + if root_is_leaf { Node::CELLS } else { 0 }) as usize;
+    assert!(count < Child::MAX_INDEX, "a hierarchy takes at most 8 GiB");
+    let mut table = large_vec(count);
+    let emitter = Emitter { binary, geometries, firsts };
+    let cells = Places::new(&mut table.spare_capacity_mut()[..count]);
+    if root_is_leaf {
+        emitter.single_leaf(cells);
     } else {
-        emitter.node(job);
+        emitter.subtree(Job { at: 0, cells });
     }
-    // SAFETY: the sizes in the binary tree are exact, and each place has been written; `Places` would have panicked
-    // had there been too few, and the checks at the end of `node` if there were too many.
-    unsafe {
-        nodes.set_len(node_count);
-        blocks.set_len(block_count);
+    // SAFETY: the sizes in the binary tree are exact, and all cells have been written; `Places` would have panicked had
+    // there been too few, and the checks in `subtree` and `leaf` if there were too many.
+    unsafe { table.set_len(count) };
+    table
+}
+
+/// Tells a parent in which cell its child lies.
+fn link(top: &mut [(Node, Places)], parent: Option<(usize, usize)>, cell: u32) {
+    if let Some((parent, slot)) = parent {
+        top[parent].0.children[slot] = Child::inner(cell);
     }
-    Wide { nodes, blocks }
 }
 
 struct Emitter<'a> {
     binary: &'a [Binary],
     geometries: &'a [Geometry<'a>],
+    firsts: &'a [u32],
 }
 
 impl Emitter<'_> {
-    /// A root node whose only child is a leaf.
-    fn single_leaf(&self, mut job: Job) {
+    /// A root node with at most one child, which is a leaf.
+    fn single_leaf(&self, mut cells: Places) {
         let mut node = Node::EMPTY;
-        let bounds = self.binary[0].entry.bounds();
-        node.set(0, bounds.lo.xyz(), bounds.hi.xyz(), self.leaf(0, &mut job.blocks));
-        job.nodes.places[0].write(node);
+        let mut own = cells.take(Node::CELLS);
+        if let Some(leaf) = self.binary.first() {
+            let bounds = leaf.entry.bounds();
+            node.set(0, bounds.lo.xyz(), bounds.hi.xyz(), self.leaf(0, cells));
+        }
+        own.put(node);
     }
 
-    /// Writes a wide node and everything below.
-    fn node(&self, mut job: Job) {
+    /// Writes a subtree: first its top, as much as a page holds, then the subtrees below.
+    fn subtree(&self, mut job: Job) {
+        let mut open = vec![Open { at: job.at, parent: None }];
+        let mut top: Vec<(Node, Places)> = Vec::new();
+        let mut used = 0;
+        while used < PAGE {
+            let larger = |&a: &usize, &b: &usize| self.half_area(open[a].at).total_cmp(&self.half_area(open[b].at));
+            let Some(largest) = (0..open.len()).max_by(larger) else { break };
+            let Open { at, parent } = open.swap_remove(largest);
+            let before = job.cells.first();
+            let cells = job.cells.take(Node::CELLS);
+            link(&mut top, parent, cells.first());
+            let node = self.node(at, top.len(), &mut job.cells, &mut open);
+            top.push((node, cells));
+            used += job.cells.first() - before;
+        }
+        let large = self.binary[job.at].size.nodes > PARALLEL;
+        let below: Vec<_> = open
+            .into_iter()
+            .map(|Open { at, parent }| {
+                let cells = job.cells.take(self.binary[at].size.cells());
+                link(&mut top, parent, cells.first());
+                Job { at, cells }
+            })
+            .collect();
+        assert!(job.cells.is_empty(), "sizes are exact");
+        for (node, mut cells) in top {
+            cells.put(node);
+        }
+        if large {
+            below.into_par_iter().for_each(|job| self.subtree(job));
+        } else {
+            below.into_iter().for_each(|job| self.subtree(job));
+        }
+    }
+
+    /// Makes the wide node of `at`, which is the `index`th of its top, and writes its leaves. Its inner children are opened.
+    fn node(&self, at: usize, index: usize, cells: &mut Places, open: &mut Vec<Open>) -> Node {
         let mut roots = Vec::with_capacity(WIDTH);
-        let plan = self.binary[job.at].plan;
-        self.split(job.at, plan.left_roots(WIDTH), WIDTH, &mut roots);
+        self.split(at, self.binary[at].plan.left_roots(WIDTH), WIDTH, &mut roots);
         // Rays that ask for any hit take the last child first: the largest box is the likeliest to hold one.
-        let area = |at: &usize| self.binary[*at].entry.bounds().half_area();
-        roots.sort_by(|a, b| area(a).total_cmp(&area(b)));
-        let own = job.nodes.take(1);
+        roots.sort_by(|&a, &b| self.half_area(a).total_cmp(&self.half_area(b)));
         let mut node = Node::EMPTY;
-        let mut inner = Vec::with_capacity(WIDTH);
-        for (slot, &at) in roots.iter().enumerate() {
+        for (slot, at) in roots.into_iter().enumerate() {
             let Binary { entry, plan, size } = self.binary[at];
-            let (nodes, mut blocks) = (job.nodes.take(size.nodes), job.blocks.take(size.blocks));
             let child = if plan.is_leaf() {
-                self.leaf(at, &mut blocks)
+                self.leaf(at, cells.take(size.cells()))
             } else {
-                let child = Child::inner(nodes.first);
-                inner.push(Job { at, nodes, blocks });
-                child
+                open.push(Open { at, parent: Some((index, slot)) });
+                Child::inner(0)
             };
             let bounds = entry.bounds();
             node.set(slot, bounds.lo.xyz(), bounds.hi.xyz(), child);
         }
-        assert!(job.nodes.places.is_empty() && job.blocks.places.is_empty(), "sizes are exact");
-        own.places[0].write(node);
-        if self.binary[job.at].size.nodes > PARALLEL {
-            inner.into_par_iter().for_each(|job| self.node(job));
-        } else {
-            inner.into_iter().for_each(|job| self.node(job));
-        }
+        node
+    }
+
+    fn half_area(&self, at: usize) -> f32 {
+        self.binary[at].entry.bounds().half_area()
     }
 
     /// The binary nodes that represent the children of `at` as `count` roots, `left` of them in the left child.
@@ -135,7 +158,7 @@ impl Emitter<'_> {
     }
 
     /// Writes the leaf for everything below `at`.
-    fn leaf(&self, at: usize, blocks: &mut Places<Block>) -> Child {
+    fn leaf(&self, at: usize, mut cells: Places) -> Child {
         let mut owners = Vec::with_capacity(LANES * Child::MAX_BLOCKS);
         self.owners(at, &mut owners);
         match owners[0] {
@@ -143,11 +166,10 @@ impl Emitter<'_> {
             Owner::Instance(index) => return Child::instance(index),
             Owner::Triangle { .. } => {}
         }
-        for (place, owners) in blocks.places.iter_mut().zip(owners.chunks(LANES)) {
-            place.write(self.block(owners));
-        }
-        assert_eq!(blocks.places.len(), owners.len().div_ceil(LANES), "sizes are exact");
-        Child::blocks(blocks.first, blocks.places.len() as u32)
+        let first = cells.first();
+        let blocks = owners.chunks(LANES).map(|owners| cells.put(self.block(owners))).count();
+        assert!(cells.is_empty(), "sizes are exact");
+        Child::blocks(first, blocks as u32)
     }
 
     fn block(&self, owners: &[Owner]) -> Block {
@@ -155,7 +177,7 @@ impl Emitter<'_> {
         for (lane, owner) in owners.iter().enumerate() {
             let &Owner::Triangle { geometry, primitive } = owner else { unreachable!("only triangles share a leaf") };
             let corners = self.geometries[geometry as usize].corners(primitive);
-            block.set(lane, corners, geometry, primitive);
+            block.set(lane, corners, self.firsts[geometry as usize] + primitive);
         }
         block
     }

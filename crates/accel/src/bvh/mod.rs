@@ -12,10 +12,12 @@
 
 mod binning;
 mod build;
+mod cells;
 mod clip;
 mod collapse;
 mod emit;
 mod instance;
+mod names;
 mod node;
 mod objects;
 mod refs;
@@ -32,14 +34,14 @@ pub use objects::Objects;
 pub use simd::SimdLevel;
 
 use crate::{Aabb, Hit, Ray};
-use emit::Wide;
+use cells::Cell;
 use glam::{Vec3, Vec4Swizzles};
 use instance::Placed;
-use node::{Child, Node};
+use names::Names;
+use node::Child;
 use refs::{Bounds, Ref};
 use sphere::Sphere;
 use std::sync::Arc;
-use triangle::Block;
 
 /// A shape as the caller has it.
 #[derive(Clone, Copy, Debug)]
@@ -97,8 +99,8 @@ pub struct Counts {
 /// The tables that traversal walks: those of the world, where node 0 is the root, or those of all objects.
 #[derive(Default)]
 struct Tables {
-    nodes: Vec<Node>,
-    blocks: Vec<Block>,
+    cells: Vec<Cell>,
+    names: Names,
     spheres: Vec<Sphere>,
     instances: Vec<Placed>,
 }
@@ -114,7 +116,8 @@ pub struct Bvh {
 
 /// One hierarchy before its tables are joined with the others.
 struct Part {
-    wide: Wide,
+    cells: Vec<Cell>,
+    names: Names,
     spheres: Vec<Sphere>,
     bounds: Aabb,
     counts: Counts,
@@ -204,14 +207,15 @@ impl Part {
         let bounds = refs.iter().fold(Bounds::EMPTY, |all, r| all.union(&r.bounds()));
         let bounds = Aabb { min: bounds.lo.xyz(), max: bounds.hi.xyz() };
         let binary = build::build(&mut refs, geometries, quality);
-        Self { wide: emit::emit(&binary, geometries), spheres: collected.spheres, bounds, counts }
+        let (names, firsts) = Names::new(geometries);
+        Self { cells: emit::emit(&binary, geometries, &firsts), names, spheres: collected.spheres, bounds, counts }
     }
 }
 
 impl Tables {
     fn memory_bytes(&self) -> usize {
-        size_of_val(self.nodes.as_slice())
-            + size_of_val(self.blocks.as_slice())
+        size_of_val(self.cells.as_slice())
+            + self.names.memory_bytes()
             + size_of_val(self.spheres.as_slice())
             + size_of_val(self.instances.as_slice())
     }

@@ -14,7 +14,7 @@ pub(super) struct Child(pub(super) u32);
 /// What a leaf word points at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Leaf {
-    /// `count` consecutive triangle blocks from `first`.
+    /// `count` consecutive triangle blocks from cell `first`.
     Blocks { first: u32, count: u32 },
     /// One sphere.
     Sphere(u32),
@@ -33,11 +33,11 @@ impl Child {
     pub(super) const LEAVE_INSTANCE: Self = Self(u32::MAX);
     /// Most triangle blocks one leaf can name.
     pub(super) const MAX_BLOCKS: usize = 6;
-    /// Most nodes, blocks, spheres or instances one hierarchy can hold; one less, as the last is a sentinel.
+    /// Most cells, spheres or instances one table can hold; one less, as the last is a sentinel.
     pub(super) const MAX_INDEX: usize = Self::INDEX as usize;
 
-    pub(super) const fn inner(node: u32) -> Self {
-        Self(node)
+    pub(super) const fn inner(cell: u32) -> Self {
+        Self(cell)
     }
 
     pub(super) fn blocks(first: u32, count: u32) -> Self {
@@ -58,13 +58,7 @@ impl Child {
         self.0 & Self::LEAF == 0
     }
 
-    /// The index of an inner node.
-    #[inline(always)]
-    pub(super) const fn node(self) -> usize {
-        self.0 as usize
-    }
-
-    /// The index of the first block, sphere or instance.
+    /// The first cell of an inner node or of blocks, or the index of a sphere or an instance.
     #[inline(always)]
     pub(super) const fn index(self) -> u32 {
         self.0 & Self::INDEX
@@ -84,7 +78,7 @@ impl Child {
 
 /// Eight child boxes in structure-of-arrays form, and the children.
 #[derive(Clone, Copy)]
-#[repr(C, align(64))]
+#[repr(C, align(32))]
 pub(super) struct Node {
     /// Planes, ordered min x, max x, min y, max y, min z, max z.
     pub(super) planes: [[f32; WIDTH]; 6],
@@ -128,11 +122,18 @@ fn next_normal_down(v: f32) -> f32 {
     }
 }
 
+impl Node {
+    /// Whether there is a child in `slot`.
+    pub(super) fn is_used(&self, slot: usize) -> bool {
+        self.planes[0][slot] <= self.planes[1][slot]
+    }
+}
+
 /// Where the tables of one object start inside the shared ones.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Offsets {
-    pub(super) nodes: u32,
-    pub(super) blocks: u32,
+    pub(super) cells: u32,
+    pub(super) names: u32,
     pub(super) spheres: u32,
 }
 
@@ -140,10 +141,10 @@ impl Child {
     /// The same child after its tables were moved.
     pub(super) fn moved(self, by: Offsets) -> Self {
         let step = if self.is_inner() {
-            by.nodes
+            by.cells
         } else {
             match self.leaf() {
-                Leaf::Blocks { .. } => by.blocks,
+                Leaf::Blocks { .. } => by.cells,
                 Leaf::Sphere(_) => by.spheres,
                 Leaf::Instance(_) | Leaf::LeaveInstance => 0,
             }

@@ -2,10 +2,12 @@
 
 use super::{
     Bvh, Counts, Geometry, Part, Quality, Tables,
+    cells::{self, Stored},
     instance::{self, Instance, Placed},
-    node::{Child, Offsets},
+    node::{Child, Leaf, Node, Offsets, WIDTH},
     refs::{Owner, Ref},
     simd::SimdLevel,
+    triangle::Block,
 };
 use crate::Aabb;
 use rayon::prelude::*;
@@ -72,12 +74,7 @@ impl Objects {
         counts.add(&part.counts);
         Bvh {
             bounds: part.bounds,
-            world: Tables {
-                nodes: part.wide.nodes,
-                blocks: part.wide.blocks,
-                spheres: part.spheres,
-                instances: placed,
-            },
+            world: Tables { cells: part.cells, names: part.names, spheres: part.spheres, instances: placed },
             objects: Arc::clone(&self.tables),
             counts,
             level: SimdLevel::detect(),
@@ -98,18 +95,36 @@ impl Objects {
 impl Tables {
     /// Adds the tables of an object and returns its root.
     fn append(&mut self, part: Part) -> u32 {
-        let by = Offsets {
-            nodes: self.nodes.len() as u32,
-            blocks: self.blocks.len() as u32,
-            spheres: self.spheres.len() as u32,
-        };
-        self.nodes.extend(part.wide.nodes.into_iter().map(|mut node| {
-            node.children = node.children.map(|child| child.moved(by));
-            node
-        }));
-        self.blocks.extend(part.wide.blocks);
+        let by =
+            Offsets { cells: self.cells.len() as u32, spheres: self.spheres.len() as u32, names: self.names.count() };
+        self.cells.extend(part.cells);
+        self.names.append(part.names);
         self.spheres.extend(part.spheres);
-        assert!(self.nodes.len().max(self.blocks.len()).max(self.spheres.len()) < Child::MAX_INDEX);
-        by.nodes
+        assert!(self.cells.len().max(self.spheres.len()) < Child::MAX_INDEX, "hierarchies take at most 8 GiB");
+        self.renumber(by);
+        by.cells
+    }
+
+    /// Tells the nodes and blocks of an object that was appended where everything is now.
+    fn renumber(&mut self, by: Offsets) {
+        let mut nodes = vec![by.cells];
+        while let Some(cell) = nodes.pop() {
+            // SAFETY: the list only holds the root of the object and the inner children of its nodes.
+            let node: &mut Node = unsafe { cells::get_mut(&mut self.cells, cell) };
+            node.children = node.children.map(|child| child.moved(by));
+            let node = *node;
+            for child in (0..WIDTH).filter(|&slot| node.is_used(slot)).map(|slot| node.children[slot]) {
+                if child.is_inner() {
+                    nodes.push(child.index());
+                } else if let Leaf::Blocks { first, count } = child.leaf() {
+                    for index in 0..count {
+                        // SAFETY: leaves only name blocks that were written.
+                        let block: &mut Block =
+                            unsafe { cells::get_mut(&mut self.cells, first + index * Block::CELLS) };
+                        block.numbers = block.numbers.map(|number| number.wrapping_add(by.names));
+                    }
+                }
+            }
+        }
     }
 }

@@ -2,14 +2,14 @@
 
 use super::{
     Bvh, Tables,
-    node::{Child, Leaf, WIDTH},
+    cells::{self, Stored},
+    node::{Child, Leaf, Node, WIDTH},
     simd::{Simd, SimdLevel, portable::Portable},
     slabs::Slabs,
     stack::Stack,
-    triangle::{self, Shear},
+    triangle::{self, Block, Shear},
 };
 use crate::{Hit, Ray};
-use std::ops::Range;
 
 impl Bvh {
     /// The nearest accepted hit, or with `ANY` the first one found.
@@ -78,7 +78,7 @@ fn walk<S: Simd, const ANY: bool, F: Fn(&Hit) -> bool>(s: S, bvh: &Bvh, ray: &Ra
         loop {
             match walk.descend::<ANY>(&mut stack, &slabs, child).map(Child::leaf) {
                 None => {}
-                Some(Leaf::Blocks { first, count }) => walk.blocks::<ANY>(&shear, first..first + count),
+                Some(Leaf::Blocks { first, count }) => walk.blocks::<ANY>(&shear, first, count),
                 Some(Leaf::Sphere(index)) => walk.sphere(index),
                 Some(Leaf::Instance(index)) => {
                     if let Some(root) = walk.enter(index) {
@@ -115,9 +115,8 @@ impl<S: Simd, F: Fn(&Hit) -> bool> Walk<'_, S, F> {
         let s = self.s;
         let (tmin, tmax) = (s.splat8(self.tmin), s.splat8(self.tmax));
         while child.is_inner() {
-            debug_assert!(child.node() < self.tables.nodes.len());
-            // SAFETY: the builder only writes indices of nodes that exist.
-            let node = unsafe { self.tables.nodes.get_unchecked(child.node()) };
+            // SAFETY: the builder only writes cells of nodes that exist.
+            let node: &Node = unsafe { cells::get(&self.tables.cells, child.index()) };
             let (near, mask) = slabs.enter(s, node, tmin, tmax);
             if mask == 0 {
                 return None;
@@ -143,11 +142,7 @@ impl<S: Simd, F: Fn(&Hit) -> bool> Walk<'_, S, F> {
         while mask != 0 {
             let child = children[mask.trailing_zeros() as usize % WIDTH];
             mask &= mask - 1;
-            let start: *const u8 = if child.is_inner() {
-                self.tables.nodes.as_ptr().wrapping_add(child.node()).cast()
-            } else {
-                self.tables.blocks.as_ptr().wrapping_add(child.index() as usize).cast()
-            };
+            let start: *const u8 = self.tables.cells.as_ptr().wrapping_add(child.index() as usize).cast();
             for line in 0..4 {
                 self.s.prefetch(start.wrapping_add(64 * line));
             }
@@ -155,18 +150,17 @@ impl<S: Simd, F: Fn(&Hit) -> bool> Walk<'_, S, F> {
     }
 
     #[inline(always)]
-    fn blocks<const ANY: bool>(&mut self, shear: &Shear<S>, range: Range<u32>) {
-        for index in range {
-            debug_assert!((index as usize) < self.tables.blocks.len());
-            // SAFETY: the builder only writes ranges of blocks that exist.
-            let block = unsafe { self.tables.blocks.get_unchecked(index as usize) };
+    fn blocks<const ANY: bool>(&mut self, shear: &Shear<S>, first: u32, count: u32) {
+        for index in 0..count {
+            // SAFETY: the builder only writes cells of blocks that exist.
+            let block: &Block = unsafe { cells::get(&self.tables.cells, first + index * Block::CELLS) };
             let Some(lanes) = triangle::intersect(self.s, block, shear, self.tmin, self.tmax) else { continue };
             let mut mask = lanes.mask;
             while mask != 0 {
                 let lane = mask.trailing_zeros() as usize % triangle::LANES;
                 mask &= mask - 1;
                 if lanes.t[lane] < self.tmax {
-                    self.offer(lanes.hit(block, lane, self.instance));
+                    self.offer(lanes.hit(lane, self.tables.names.of(block.numbers[lane]), self.instance));
                     if ANY && self.best.is_some() {
                         return;
                     }

@@ -14,26 +14,24 @@ pub(super) const LANES: usize = 4;
 
 /// Four triangles in structure-of-arrays form; unused lanes hold a point at the origin, which no ray hits.
 #[derive(Clone, Copy)]
-#[repr(C, align(16))]
+#[repr(C, align(32))]
 pub(super) struct Block {
     /// Vertex, then axis, then lane.
     pub(super) vertices: [[[f32; LANES]; 3]; 3],
-    pub(super) geometry: [u32; LANES],
-    pub(super) primitive: [u32; LANES],
+    /// The triangles' numbers among those of the table, see `names`.
+    pub(super) numbers: [u32; LANES],
 }
 
 impl Block {
-    pub(super) const EMPTY: Self =
-        Self { vertices: [[[0.0; LANES]; 3]; 3], geometry: [u32::MAX; LANES], primitive: [u32::MAX; LANES] };
+    pub(super) const EMPTY: Self = Self { vertices: [[[0.0; LANES]; 3]; 3], numbers: [u32::MAX; LANES] };
 
-    pub(super) fn set(&mut self, lane: usize, corners: [Vec3; 3], geometry: u32, primitive: u32) {
+    pub(super) fn set(&mut self, lane: usize, corners: [Vec3; 3], number: u32) {
         for (vertex, corner) in self.vertices.iter_mut().zip(corners) {
             for axis in 0..3 {
                 vertex[axis][lane] = corner[axis];
             }
         }
-        self.geometry[lane] = geometry;
-        self.primitive[lane] = primitive;
+        self.numbers[lane] = number;
     }
 }
 
@@ -114,14 +112,7 @@ pub(super) fn intersect<S: Simd>(s: S, block: &Block, ray: &Shear<S>, tmin: f32,
 impl LaneHits {
     /// The hit record of one lane.
     #[inline(always)]
-    pub(super) fn hit(&self, block: &Block, lane: usize, instance: u32) -> Hit {
-        Hit {
-            t: self.t[lane],
-            u: self.u[lane],
-            v: self.v[lane],
-            geometry: block.geometry[lane],
-            primitive: block.primitive[lane],
-            instance,
-        }
+    pub(super) fn hit(&self, lane: usize, (geometry, primitive): (u32, u32), instance: u32) -> Hit {
+        Hit { t: self.t[lane], u: self.u[lane], v: self.v[lane], geometry, primitive, instance }
     }
 }

@@ -1,7 +1,7 @@
 //! Spheres, instances, filters, and input that no ray can hit.
 
 use crate::LEVELS;
-use crate::support::{Rng, brute_force, bumpy_ball, triangle_soup};
+use crate::support::{Mesh, Rng, brute_force, bumpy_ball, triangle_soup};
 use accel::{Bvh, Geometry, Hit, Instance, Objects, Quality, Ray};
 use glam::{Affine3A, Quat, Vec3};
 
@@ -48,6 +48,15 @@ fn far_huge_and_tiny_spheres_keep_their_precision() {
     assert!(!grazing.occluded(&Ray::new(Vec3::new(1.000_001, 0.0, 1e4), Vec3::NEG_Z)));
 }
 
+/// Triangles of each mesh but the last of an object.
+const CUT: u32 = 100;
+
+/// A mesh as several.
+fn cut(mesh: &Mesh) -> Vec<Geometry<'_>> {
+    let geometry = |indices| Geometry::Triangles { positions: &mesh.positions, indices };
+    mesh.indices.chunks(CUT as usize).map(geometry).collect()
+}
+
 #[test]
 fn instances_answer_like_their_transformed_triangles() {
     let ball = bumpy_ball(2, 0.3);
@@ -61,16 +70,17 @@ fn instances_answer_like_their_transformed_triangles() {
     let instances: Vec<Instance> =
         (0..30).map(|i| Instance { object: i % 2, world_from_object: place(&mut rng) }).collect();
     let mut flat = soup.clone();
-    let mut owner = vec![Hit::NO_INSTANCE; soup.indices.len()];
+    let mut owner: Vec<_> = (0..soup.indices.len() as u32).map(|i| (Hit::NO_INSTANCE, 0, i)).collect();
     for (id, instance) in instances.iter().enumerate() {
         let object = if instance.object == 0 { &ball } else { &soup };
         let first = flat.positions.len() as u32;
         flat.positions.extend(object.positions.iter().map(|&p| instance.world_from_object.transform_point3(p)));
         flat.indices.extend(object.indices.iter().map(|t| t.map(|i| i + first)));
-        owner.resize(flat.indices.len(), id as u32);
+        owner.extend((0..object.indices.len() as u32).map(|i| (id as u32, i / CUT, i % CUT)));
     }
+    let (balls, soups) = (cut(&ball), cut(&soup));
+    let objects: [&[Geometry]; 2] = [&balls, &soups];
     for level in LEVELS {
-        let objects: [&[Geometry]; 2] = [&[ball.geometry()], &[soup.geometry()]];
         let bvh = Bvh::build(&[soup.geometry()], &objects, &instances, Quality::Default).with_simd(level);
         assert_eq!(bvh.counts().instances, 30);
         let mut rng = Rng(8);
@@ -81,7 +91,8 @@ fn instances_answer_like_their_transformed_triangles() {
             assert_eq!(bvh.occluded(&ray), expected.is_some(), "{ray:?}");
             if let (Some(found), Some(expected)) = (found, expected) {
                 assert!((found.t - expected.t).abs() <= 1e-4 * expected.t, "{found:?} {expected:?}");
-                assert_eq!(found.instance, owner[expected.primitive as usize]);
+                let names = (found.instance, found.geometry, found.primitive);
+                assert_eq!(names, owner[expected.primitive as usize]);
             }
         }
     }
