@@ -9,6 +9,15 @@ pub(crate) fn large_vec<T>(capacity: usize) -> Vec<T> {
     table
 }
 
+/// `count` zeros (or what `T` has for zero), likewise on huge pages. Memory that the system gives as zeros is not written to,
+/// so whoever writes first, on whichever thread, takes the cost.
+pub(crate) fn large_zeroed<T: Copy + Default>(count: usize) -> Vec<T> {
+    let table = vec![T::default(); count];
+    #[cfg(target_os = "linux")]
+    advise_huge_pages(table.as_ptr().cast(), count * size_of::<T>());
+    table
+}
+
 #[cfg(target_os = "linux")]
 fn advise_huge_pages(start: *const u8, bytes: usize) {
     const PAGE: usize = 4096;

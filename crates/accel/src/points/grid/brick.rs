@@ -117,18 +117,52 @@ impl Bricks {
         }
     }
 
-    /// The number of places, which is what [`Self::iter`] costs.
-    pub(super) fn places(&self) -> usize {
-        self.places.len()
-    }
-
-    /// All bricks that hold points.
-    pub(super) fn iter(&self) -> impl Iterator<Item = &Brick> {
-        self.places.iter().filter(|brick| brick.cells != 0)
+    /// Bricks that hold points, among them all that touch the box from `min` to `max`.
+    #[inline(always)]
+    pub(super) fn touched(&self, min: Vec3, max: Vec3) -> Touched<'_> {
+        let (lo, hi) = (brick_of(self.lattice.cell(min)), brick_of(self.lattice.cell(max)));
+        let count: f32 = (0..3).map(|a| hi[a] as f32 - lo[a] as f32 + 1.0).product();
+        Touched { bricks: self, lo, hi, at: lo, all: (count > self.places.len() as f32).then(|| self.places.iter()) }
     }
 
     /// Heap memory held, in bytes.
     pub(super) fn memory_bytes(&self) -> usize {
         size_of_val(self.places.as_slice())
+    }
+}
+
+/// See [`Bricks::touched`].
+pub(super) struct Touched<'b> {
+    bricks: &'b Bricks,
+    lo: At,
+    hi: At,
+    /// The next to look up.
+    at: At,
+    /// Set where it is cheaper to go through all places than to look up each brick.
+    all: Option<std::slice::Iter<'b, Brick>>,
+}
+
+impl<'b> Iterator for Touched<'b> {
+    type Item = &'b Brick;
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<&'b Brick> {
+        if let Some(all) = &mut self.all {
+            return all.find(|brick| brick.cells != 0);
+        }
+        while self.at[2] <= self.hi[2] {
+            let at = self.at;
+            self.at[0] += 1;
+            for axis in [0, 1] {
+                if self.at[axis] > self.hi[axis] {
+                    self.at[axis] = self.lo[axis];
+                    self.at[axis + 1] += 1;
+                }
+            }
+            if let Some(brick) = self.bricks.find(at) {
+                return Some(brick);
+            }
+        }
+        None
     }
 }

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 
 use super::PointGrid;
 use super::brick::{At, Brick, Bricks, Lattice, bit_of, brick_of, hash, upper};
+use crate::memory::large_zeroed;
 use crate::points::lanes::{Isa, LANES};
 
 /// Points per chunk of the input.
@@ -53,8 +54,8 @@ pub(super) fn build(points: &[Vec3], cell: f32) -> PointGrid {
         .map(|(i, points)| Chunk::new(points, i * CHUNK, lattice, partitions))
         .collect();
     let count = chunks.iter().map(|chunk| chunk.items.len()).sum();
-    let mut coords = [(); 3].map(|()| vec![0.0; count + LANES]);
-    let mut order = vec![0; count];
+    let mut coords = [(); 3].map(|()| large_zeroed(count + LANES));
+    let mut order = large_zeroed(count);
     let sorted: Vec<Sorted> = stretches(&chunks, partitions, &mut coords, &mut order)
         .into_par_iter()
         .enumerate()

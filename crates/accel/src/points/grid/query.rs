@@ -1,16 +1,25 @@
-//! One query of a fixed radius.
+//! One query of a fixed radius, in three steps that each keep the processor busy: find the runs of slots that the sphere may
+//! touch, and ask for their memory; test their points sixteen at a time, and pack those found; visit these.
 
 use glam::Vec3;
 
 use super::PointGrid;
-use super::brick::{At, Brick, brick_of};
-use crate::points::lanes::{LANES, Lanes, Task};
+use super::brick::{Brick, Touched};
+use crate::points::lanes::{LANES, Lanes, Near, Task};
 
 /// A relative margin far above the rounding of a few f32 operations, far below what would cost time.
 const MARGIN: f32 = 1e-6;
 
-/// A sphere, and what to do with each point in it.
-pub(super) struct Query<'g, F> {
+/// Runs of slots noted before their points are tested: at least what one brick may have, every other of its cells.
+const RUNS: usize = 64;
+const OF_BRICK: usize = 32;
+
+/// Points found before they are visited.
+const FOUND: usize = 64;
+
+/// A sphere, in world units and in cells.
+#[derive(Clone, Copy)]
+struct Sphere<'g> {
     grid: &'g PointGrid,
     p: Vec3,
     /// The squared radius that points are held against.
@@ -23,6 +32,11 @@ pub(super) struct Query<'g, F> {
     slack: f32,
     /// The squared reach in cells.
     reach2: f32,
+}
+
+/// A sphere, and what to do with each point in it.
+pub(super) struct Query<'g, F> {
+    sphere: Sphere<'g>,
     visit: F,
 }
 
@@ -39,9 +53,11 @@ impl<'g, F: FnMut(u32, f32)> Query<'g, F> {
         // Whole numbers above 2^24 round as well, hence all that is as large as a cell's coordinate counts.
         let slack = (center.abs().max_element() + cells + 8.0) * MARGIN;
         let reach2 = cells * cells * (1.0 + 4.0 * MARGIN);
-        Self { grid, p, r2, reach, center, slack, reach2, visit }
+        Self { sphere: Sphere { grid, p, r2, reach, center, slack, reach2 }, visit }
     }
+}
 
+impl Sphere<'_> {
     /// Squared distance in cells to the four layers of cells of brick coordinate `at` along `axis`; never too large.
     #[inline(always)]
     fn layers(&self, axis: usize, at: i32) -> [f32; 4] {
@@ -52,11 +68,37 @@ impl<'g, F: FnMut(u32, f32)> Query<'g, F> {
             d * d
         })
     }
+}
 
-    /// Visits those points of `brick` that are within the radius.
+/// A query under way.
+struct Search<'g, F> {
+    sphere: Sphere<'g>,
+    /// Runs of slots to test, each by its first slot and the one behind its last.
+    runs: [(u32, u32); RUNS],
+    run_count: usize,
+    /// Slots of points to visit, and room for as many as one step may add.
+    slots: [u32; FOUND + LANES],
+    d2: [f32; FOUND + LANES],
+    found: usize,
+    visit: F,
+}
+
+impl<F: FnMut(u32, f32)> Search<'_, F> {
+    /// Notes cells of the bricks that come, until none comes or there is no room; true in the latter case.
     #[inline(always)]
-    fn brick<L: Lanes>(&mut self, lanes: L, brick: &Brick, layers: &[[f32; 4]; 3]) {
-        let near = lanes.cells(layers, self.reach2);
+    fn note<L: Lanes>(&mut self, lanes: L, bricks: &mut Touched) -> bool {
+        while self.run_count <= RUNS - OF_BRICK {
+            let Some(brick) = bricks.next() else { return false };
+            self.note_brick(lanes, brick);
+        }
+        true
+    }
+
+    /// Notes those cells of `brick` that the sphere may touch.
+    #[inline(always)]
+    fn note_brick<L: Lanes>(&mut self, lanes: L, brick: &Brick) {
+        let Sphere { grid, reach2, .. } = self.sphere;
+        let near = lanes.cells(&[0, 1, 2].map(|axis| self.sphere.layers(axis, brick.at[axis])), reach2);
         let mut rest = brick.cells & near;
         while rest != 0 {
             let from = rest & rest.wrapping_neg();
@@ -65,64 +107,63 @@ impl<'g, F: FnMut(u32, f32)> Query<'g, F> {
             let below_stop = (stop & stop.wrapping_neg()).wrapping_sub(1);
             let first = brick.first + (brick.cells & (from - 1)).count_ones();
             let end = first + (rest & below_stop).count_ones();
-            self.slots(lanes, self.grid.starts[first as usize], self.grid.starts[end as usize]);
+            let (start, end) = (grid.starts[first as usize], grid.starts[end as usize]);
+            for c in &grid.coords {
+                lanes.prefetch(&raw const c[start as usize]);
+            }
+            self.runs[self.run_count] = (start, end);
+            self.run_count += 1;
             rest &= !below_stop;
         }
     }
 
-    /// Visits those points of the slots `start..end` that are within the radius.
+    /// Finds those points of the noted slots that are within the radius.
     #[inline(always)]
-    fn slots<L: Lanes>(&mut self, lanes: L, start: u32, end: u32) {
-        let mut slot = start;
-        while slot < end {
-            let at = self.grid.coords.each_ref().map(|c| c[slot as usize..].first_chunk::<LANES>().expect("padding"));
-            let mut d2 = [0.0; LANES];
-            let near = lanes.points(at, self.p, self.r2, &mut d2);
-            let mut near = near & (u32::MAX >> (31 - (end - slot - 1).min(31)));
-            while near != 0 {
-                let i = near.trailing_zeros();
-                (self.visit)(slot + i, d2[i as usize]);
-                near &= near - 1;
-            }
-            slot = slot.saturating_add(LANES as u32);
-        }
-    }
-
-    #[inline(always)]
-    fn look_up<L: Lanes>(&mut self, lanes: L, lo: At, hi: At) {
-        for z in lo[2]..=hi[2] {
-            let z2 = self.layers(2, z);
-            for y in lo[1]..=hi[1] {
-                let y2 = self.layers(1, y);
-                for x in lo[0]..=hi[0] {
-                    if let Some(brick) = self.grid.bricks.find([x, y, z]) {
-                        self.brick(lanes, brick, &[self.layers(0, x), y2, z2]);
-                    }
+    fn test<L: Lanes>(&mut self, lanes: L) {
+        let Sphere { grid, p, r2, .. } = self.sphere;
+        for &(start, end) in &self.runs[..self.run_count] {
+            let mut slot = start;
+            while slot < end {
+                if self.found > FOUND {
+                    visit_all(&self.slots, &self.d2, &mut self.found, &mut self.visit);
                 }
+                let at = grid.coords.each_ref().map(|c| c[slot as usize..].first_chunk::<LANES>().expect("padding"));
+                let numbers = self.slots[self.found..].first_chunk_mut().expect("room");
+                let d2 = self.d2[self.found..].first_chunk_mut().expect("room");
+                let valid = u32::MAX >> (31 - (end - slot - 1).min(31));
+                self.found += lanes.near(at, p, r2, valid, slot, Near { numbers, d2 });
+                slot = slot.saturating_add(LANES as u32);
             }
         }
+        self.run_count = 0;
     }
+}
 
-    #[inline(always)]
-    fn all<L: Lanes>(&mut self, lanes: L) {
-        for brick in self.grid.bricks.iter() {
-            let layers = [0, 1, 2].map(|axis| self.layers(axis, brick.at[axis]));
-            self.brick(lanes, brick, &layers);
-        }
-    }
+/// Visits what was found, and forgets it.
+#[inline(always)]
+fn visit_all(slots: &[u32], d2: &[f32], found: &mut usize, visit: &mut impl FnMut(u32, f32)) {
+    slots[..*found].iter().zip(&d2[..*found]).for_each(|(&slot, &d2)| visit(slot, d2));
+    *found = 0;
 }
 
 impl<F: FnMut(u32, f32)> Task for Query<'_, F> {
     #[inline(always)]
-    fn run<L: Lanes>(mut self, lanes: L) {
-        let lattice = self.grid.bricks.lattice();
-        let lo = brick_of(lattice.cell(self.p - self.reach));
-        let hi = brick_of(lattice.cell(self.p + self.reach));
-        let touched: f32 = (0..3).map(|a| hi[a] as f32 - lo[a] as f32 + 1.0).product();
-        if touched > self.grid.bricks.places() as f32 {
-            self.all(lanes);
-        } else {
-            self.look_up(lanes, lo, hi);
+    fn run<L: Lanes>(self, lanes: L) {
+        let Self { sphere, visit } = self;
+        let mut search = Search {
+            sphere,
+            runs: [(0, 0); RUNS],
+            run_count: 0,
+            slots: [0; FOUND + LANES],
+            d2: [0.0; FOUND + LANES],
+            found: 0,
+            visit,
+        };
+        let mut bricks = sphere.grid.bricks.touched(sphere.p - sphere.reach, sphere.p + sphere.reach);
+        while search.note(lanes, &mut bricks) {
+            search.test(lanes);
         }
+        search.test(lanes);
+        visit_all(&search.slots, &search.d2, &mut search.found, &mut search.visit);
     }
 }

@@ -22,10 +22,23 @@ pub(super) type Row = [f32; LANES];
 /// One coordinate per row.
 pub(super) type Rows<'a> = [&'a Row; 3];
 
+/// Where numbers and squared distances of points go.
+pub(super) struct Near<'a> {
+    pub(super) numbers: &'a mut [u32; LANES],
+    pub(super) d2: &'a mut Row,
+}
+
 /// An instruction set. A value of a type that implements this proves that the processor has it.
 pub(super) trait Lanes: Copy {
     /// Squared distances from `p` to sixteen points; bit `i` of the result tells `d2[i] <= bound`.
     fn points(self, at: Rows, p: Vec3, bound: f32, d2: &mut Row) -> u32;
+
+    /// Of sixteen points whose bit in `valid` is set, those with a squared distance from `p` of at most `bound`, in order: their
+    /// numbers, counted from `first`, and their squared distances. Returns how many; what is behind them means nothing.
+    fn near(self, at: Rows, p: Vec3, bound: f32, valid: u32, first: u32, out: Near) -> usize;
+
+    /// Brings the memory at `p` closer, if that can be.
+    fn prefetch(self, p: *const f32);
 
     /// Squared distances from `p` to sixteen boxes, 0 inside; bit `i` of the result tells `d2[i] <= bound`.
     /// Never above what [`Self::points`] gives for a point of the box.

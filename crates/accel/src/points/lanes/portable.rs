@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{LANES, Lanes, Row, Rows};
+use super::{LANES, Lanes, Near, Row, Rows};
 
 /// Plain loops, which the compiler turns into whatever the target has.
 #[derive(Clone, Copy)]
@@ -17,6 +17,21 @@ impl Lanes for Portable {
         }
         mask(d2, bound)
     }
+
+    #[inline(always)]
+    fn near(self, at: Rows, p: Vec3, bound: f32, valid: u32, first: u32, out: Near) -> usize {
+        let mut d2 = [0.0; LANES];
+        let near = self.points(at, p, bound, &mut d2) & valid;
+        let mut count = 0;
+        for (i, &d2) in d2.iter().enumerate() {
+            (out.numbers[count], out.d2[count]) = (first.wrapping_add(i as u32), d2);
+            count += (near >> i & 1) as usize;
+        }
+        count
+    }
+
+    #[inline(always)]
+    fn prefetch(self, _: *const f32) {}
 
     #[inline(always)]
     fn boxes(self, lo: Rows, hi: Rows, p: Vec3, bound: f32, d2: &mut Row) -> u32 {

@@ -1,7 +1,7 @@
 use glam::Vec3;
 
 use super::portable::Portable;
-use super::{LANES, Lanes, Row};
+use super::{LANES, Lanes, Near, Row};
 
 /// Sixteen values that take in ordinary ones, zeros, huge, tiny, infinite and NaN.
 fn row(seed: u32) -> Row {
@@ -22,6 +22,13 @@ fn same_bits(a: &Row, b: &Row) -> bool {
     (0..LANES).all(|i| a[i].to_bits() == b[i].to_bits() || (a[i].is_nan() && b[i].is_nan()))
 }
 
+/// Numbers and bits of the squared distances of the points found, numbered from 1000.
+fn near(lanes: impl Lanes, at: [&Row; 3], p: Vec3, bound: f32, valid: u32) -> Vec<(u32, u32)> {
+    let (mut numbers, mut d2) = ([7; LANES], [7.0; LANES]);
+    let count = lanes.near(at, p, bound, valid, 1000, Near { numbers: &mut numbers, d2: &mut d2 });
+    numbers.into_iter().zip(d2.map(f32::to_bits)).take(count).collect()
+}
+
 fn agrees_with_portable(lanes: impl Lanes) {
     for seed in 0..200 {
         let rows: [Row; 6] = std::array::from_fn(|a| row(seed * 8 + a as u32));
@@ -32,6 +39,9 @@ fn agrees_with_portable(lanes: impl Lanes) {
             let want = Portable.points([x, y, z], p, bound, &mut expected);
             assert_eq!(lanes.points([x, y, z], p, bound, &mut found), want);
             assert!(same_bits(&found, &expected));
+
+            let valid = seed.wrapping_mul(0x9E37_79B9) >> 16;
+            assert_eq!(near(lanes, [x, y, z], p, bound, valid), near(Portable, [x, y, z], p, bound, valid));
 
             let (mut lo, mut hi) = ([[0.0; LANES]; 3], [[0.0; LANES]; 3]);
             for (a, (s, t)) in [(x, u), (y, v), (z, w)].into_iter().enumerate() {
@@ -76,6 +86,14 @@ fn plain_rust_gives_the_distances_of_glam() {
         assert_eq!(d2[i].to_bits(), expected.to_bits());
         assert_eq!(mask >> i & 1 == 1, expected <= 40.0);
     }
+}
+
+#[test]
+fn what_is_near_comes_in_order_and_only_if_it_is_valid() {
+    let rows: [Row; 3] = std::array::from_fn(|a| std::array::from_fn(|i| if a == 0 { (i % 5) as f32 } else { 0.0 }));
+    let found = near(Portable, rows.each_ref(), Vec3::ZERO, 1.0, 0b1110_1111_1111_1011);
+    let expected = [0, 1, 5, 6, 10, 11, 15].map(|i| (1000 + i, ((i % 5) as f32).to_bits()));
+    assert_eq!(found, expected);
 }
 
 #[test]

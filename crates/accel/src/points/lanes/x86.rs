@@ -3,16 +3,19 @@
 //! No closure may hold an intrinsic: it would be compiled without the features, and each intrinsic become a call.
 
 use std::arch::x86_64::{
-    __m256, __m512, _CMP_LE_OQ, _mm_loadu_ps, _mm_set1_ps, _mm256_add_ps, _mm256_broadcast_ps, _mm256_cmp_ps,
-    _mm256_loadu_ps, _mm256_max_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_set_m128, _mm256_set1_ps,
-    _mm256_setzero_ps, _mm256_storeu_ps, _mm256_sub_ps, _mm512_add_ps, _mm512_broadcast_f32x4, _mm512_castps128_ps512,
-    _mm512_cmp_ps_mask, _mm512_loadu_ps, _mm512_max_ps, _mm512_mul_ps, _mm512_permutexvar_ps, _mm512_set1_ps,
-    _mm512_setr_epi32, _mm512_setzero_ps, _mm512_storeu_ps, _mm512_sub_ps,
+    __m256, __m512, _CMP_LE_OQ, _MM_HINT_T0, _mm_loadl_epi64, _mm_loadu_ps, _mm_prefetch, _mm_set1_ps,
+    _mm256_add_epi32, _mm256_add_ps, _mm256_broadcast_ps, _mm256_cmp_ps, _mm256_cvtepu8_epi32, _mm256_loadu_ps,
+    _mm256_max_ps, _mm256_movemask_ps, _mm256_mul_ps, _mm256_permutevar8x32_ps, _mm256_set_m128, _mm256_set1_epi32,
+    _mm256_set1_ps, _mm256_setzero_ps, _mm256_storeu_ps, _mm256_storeu_si256, _mm256_sub_ps, _mm512_add_epi32,
+    _mm512_add_ps, _mm512_broadcast_f32x4, _mm512_castps128_ps512, _mm512_cmp_ps_mask, _mm512_loadu_ps,
+    _mm512_maskz_compress_epi32, _mm512_maskz_compress_ps, _mm512_max_ps, _mm512_mul_ps, _mm512_permutexvar_ps,
+    _mm512_set1_epi32, _mm512_set1_ps, _mm512_setr_epi32, _mm512_setzero_ps, _mm512_storeu_ps, _mm512_storeu_si512,
+    _mm512_sub_ps,
 };
 
 use glam::Vec3;
 
-use super::{Lanes, Row, Rows, Task};
+use super::{LANES, Lanes, Near, Row, Rows, Task};
 
 /// Proof that the processor has AVX2 and the bit counts that came with it. Only [`Avx2::detect`] makes one.
 #[derive(Clone, Copy)]
@@ -80,6 +83,32 @@ impl Lanes for Avx2 {
     }
 
     #[inline(always)]
+    fn near(self, at: Rows, p: Vec3, bound: f32, valid: u32, first: u32, out: Near) -> usize {
+        let mut d2 = [0.0; LANES];
+        let near = self.points(at, p, bound, &mut d2) & valid;
+        let mut count = 0;
+        for half in [0, 8] {
+            let bits = (near >> half & 0xFF) as usize;
+            // SAFETY: `self` proves the features; `count` is at most `half`, so that both stores end within the rows.
+            unsafe {
+                let moves = _mm256_cvtepu8_epi32(_mm_loadl_epi64(PACK[bits].as_ptr().cast()));
+                let kept = _mm256_permutevar8x32_ps(_mm256_loadu_ps(d2.as_ptr().add(half)), moves);
+                _mm256_storeu_ps(out.d2.as_mut_ptr().add(count), kept);
+                let numbers = _mm256_add_epi32(moves, _mm256_set1_epi32(first.wrapping_add(half as u32) as i32));
+                _mm256_storeu_si256(out.numbers.as_mut_ptr().add(count).cast(), numbers);
+            }
+            count += bits.count_ones() as usize;
+        }
+        count
+    }
+
+    #[inline(always)]
+    fn prefetch(self, p: *const f32) {
+        // SAFETY: a prefetch may be given any address.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(p.cast()) };
+    }
+
+    #[inline(always)]
     fn boxes(self, lo: Rows, hi: Rows, p: Vec3, bound: f32, d2: &mut Row) -> u32 {
         let mut mask = 0;
         for half in [0, 8] {
@@ -112,6 +141,26 @@ impl Lanes for Avx2 {
         }
         cells
     }
+}
+
+/// For each set of eight lanes, its members in order.
+const PACK: [[u8; 8]; 256] = pack();
+
+const fn pack() -> [[u8; 8]; 256] {
+    let mut table = [[0; 8]; 256];
+    let mut bits = 0;
+    while bits < 256 {
+        let (mut lane, mut count) = (0, 0);
+        while lane < 8 {
+            if bits >> lane & 1 == 1 {
+                table[bits][count] = lane as u8;
+                count += 1;
+            }
+            lane += 1;
+        }
+        bits += 1;
+    }
+    table
 }
 
 /// Distances from `p` to the intervals `lo..hi` of the lanes from `half`.
@@ -154,6 +203,27 @@ impl Lanes for Avx512 {
             let dz = _mm512_sub_ps(_mm512_set1_ps(p.z), _mm512_loadu_ps(at[2].as_ptr()));
             norm512(dx, dy, dz, bound, d2)
         }
+    }
+
+    #[inline(always)]
+    fn near(self, at: Rows, p: Vec3, bound: f32, valid: u32, first: u32, out: Near) -> usize {
+        let mut d2 = [0.0; LANES];
+        let near = (self.points(at, p, bound, &mut d2) & valid) as u16;
+        // SAFETY: `self` proves the features; each row has sixteen values.
+        unsafe {
+            let kept = _mm512_maskz_compress_ps(near, _mm512_loadu_ps(d2.as_ptr()));
+            _mm512_storeu_ps(out.d2.as_mut_ptr(), kept);
+            let lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+            let numbers = _mm512_maskz_compress_epi32(near, _mm512_add_epi32(lanes, _mm512_set1_epi32(first as i32)));
+            _mm512_storeu_si512(out.numbers.as_mut_ptr().cast(), numbers);
+        }
+        near.count_ones() as usize
+    }
+
+    #[inline(always)]
+    fn prefetch(self, p: *const f32) {
+        // SAFETY: a prefetch may be given any address.
+        unsafe { _mm_prefetch::<_MM_HINT_T0>(p.cast()) };
     }
 
     #[inline(always)]
