@@ -18,6 +18,9 @@ impl Model for BlackMaterial {
     fn textures(&self) -> Vec<TextureId> {
         Vec::new()
     }
+    fn is_matt(&self) -> bool {
+        true
+    }
 }
 
 /// Scatters nothing: every path ends here.

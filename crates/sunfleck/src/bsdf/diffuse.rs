@@ -28,6 +28,9 @@ impl Model for DiffuseMaterial {
     fn textures(&self) -> Vec<TextureId> {
         vec![self.reflectance]
     }
+    fn is_matt(&self) -> bool {
+        true
+    }
 }
 
 /// Reflects the same radiance in all directions of `wo`'s side: `f = ρ/π`.

@@ -32,6 +32,9 @@ impl Model for DiffuseTransmissionMaterial {
     fn textures(&self) -> Vec<TextureId> {
         vec![self.reflectance, self.transmittance]
     }
+    fn is_matt(&self) -> bool {
+        true
+    }
 }
 
 /// `f` is the albedo of a side over π.

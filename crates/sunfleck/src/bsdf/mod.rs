@@ -139,6 +139,10 @@ pub trait Model {
     fn is_dispersive(&self) -> bool {
         false
     }
+    /// Whether it scatters light so evenly that it makes no caustics.
+    fn is_matt(&self) -> bool {
+        false
+    }
     /// Whether it asks where the texture coordinates grow.
     fn is_aligned(&self) -> bool {
         false
@@ -194,6 +198,10 @@ macro_rules! models {
             /// The materials that it is laid over.
             pub fn parts(&self) -> Vec<MaterialId> {
                 if let Self::Covering(c) = self { c.parts() } else { Vec::new() }
+            }
+            /// Whether it makes no caustics; coverings leave that to what they are laid over.
+            pub fn is_matt(&self) -> bool {
+                match self { $(Self::$closure(m) => m.is_matt(),)* Self::Covering(_) => true }
             }
             /// Whether it bends each wavelength differently.
             pub fn is_dispersive(&self) -> bool {

@@ -118,6 +118,10 @@ impl Scene {
     pub fn materials(&self) -> &[Material] {
         &self.materials
     }
+    /// Whether nothing in it makes caustics.
+    pub fn is_matt(&self) -> bool {
+        self.materials.iter().all(Material::is_matt)
+    }
     /// Whether some material bends each wavelength differently, which only spectral mode shows.
     pub fn is_dispersive(&self) -> bool {
         self.materials.iter().any(Material::is_dispersive)

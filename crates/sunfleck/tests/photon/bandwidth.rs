@@ -1,8 +1,12 @@
 //! Radii fitted to the error they leave.
-use crate::scenes::{caustic, spec};
+use crate::scenes::{caustic, eye, make, matt, room, spec, walls};
+use glam::Vec3;
 use sunfleck::{
     integrator::{Params, find},
+    light::SpotLight,
     photon::{After, Bandwidth, Keep, Kernel, Radii, Schedule, Source},
+    scene::SceneBuilder,
+    spectrum::Rgb,
     walk::Limits,
 };
 
@@ -49,4 +53,22 @@ fn unified_forgets_a_bad_scale_but_keeps_a_radius_that_was_named() {
     let [usual, wide] = ["1", "30"].map(|scale| typical("radius-scale", scale));
     assert!((0.4..2.5).contains(&(wide / usual)), "{wide} against {usual}");
     assert_eq!(typical("radius", "0.0123"), 0.0123);
+}
+
+#[test]
+fn a_matt_room_has_photons_only_where_its_light_is_hard_to_find() {
+    let lit_openly = room(Rgb::splat(8.0), 0.6).build().unwrap();
+    // All light comes from a small bright spot on the ceiling.
+    let mut b = SceneBuilder::new();
+    let white = matt(&mut b, Rgb::splat(0.7));
+    for wall in walls() {
+        b.add(wall, white);
+    }
+    b.light(SpotLight::new(Vec3::ZERO, Vec3::Y, Rgb::splat(30.0), [0.06, 0.08]).unwrap());
+    b.camera(eye(Vec3::new(0.0, 0.0, -0.95), Vec3::new(0.0, -0.6, 1.0), 70.0));
+    let lit_by_a_spot = b.build().unwrap();
+    for (scene, has_photons) in [(lit_openly, false), (lit_by_a_spot, true)] {
+        let unified = make("unified", "");
+        assert_eq!(unified.prepare(&scene, spec(64), 1).audit(1, 1000).is_some(), has_photons);
+    }
 }

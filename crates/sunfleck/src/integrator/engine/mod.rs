@@ -166,12 +166,16 @@ impl Integrator for Engine {
             scene,
             engine: self,
             radii,
-            source: self.source(scene, spec, seed),
+            source: Source::plain(),
             paths: if self.on.need_light_paths() { paths } else { 0 },
             parts: 1,
             same_place: std::f32::consts::PI * degree * degree,
             plan: None,
         };
+        if self.planned && scene.is_matt() && Plan::needs_no_photons(&mut prepared, spec, seed) {
+            return Box::new(prepared);
+        }
+        prepared.source = self.source(scene, spec, seed);
         let fitted = prepared.fit(spec, seed);
         if self.planned {
             Plan::train(&mut prepared, fitted.as_ref(), spec, seed);

@@ -35,6 +35,12 @@ const DARKEST: f64 = 1e-30;
 const SURE: f64 = 16.0;
 /// Rounds of prices.
 const ROUNDS: usize = 4;
+/// Pixels of the picture that candidates are tried on, at most, and of one that a glance will do for.
+const PIXELS: f64 = 16_384.0;
+const GLANCE: f64 = 4_096.0;
+/// In a room without caustics photons must be so many times better, for the noise of camera paths goes on falling as fast as
+/// passes grow in number, and means over parts of the picture are right.
+const BETTER: f64 = 8.0;
 /// Points along a tile's edge where ladders are looked up.
 const LOOKS: usize = 3;
 
@@ -217,10 +223,25 @@ impl<'t> Choice<'t> {
 }
 
 impl Plan {
+    /// Whether a room that makes no caustics is as well rendered by camera paths alone; if so, that is the plan. Gathers are
+    /// judged by their noise, as if they did not blur. The look is too short to count beside a picture.
+    pub(in super::super) fn needs_no_photons(prepared: &mut Prepared, spec: FilmSpec, seed: u64) -> bool {
+        let glance = trial::small(spec, GLANCE);
+        let trials = [Merge::Caustic, Merge::First].map(|m| Self::everywhere(spec, m).try_out(prepared, glance, seed));
+        let light = prepared.paths as f64 / spec.pixels() as f64 * trials[1].path;
+        let after = After::new(bandwidth::PASSES, prepared.engine.schedule);
+        let choice = Choice::new(&trials, None, after, Self::everywhere(spec, Merge::Off), light);
+        let needs_none = choice.without_photons().product() <= BETTER * choice.settle(1.0).1.product();
+        if needs_none {
+            prepared.paths = 0;
+            prepared.plan = Some(choice.plan);
+        }
+        needs_none
+    }
     /// Tries candidates on a small picture and keeps, tile by tile, the one with the least error for its cost, and its radii.
     /// Costs are counted, not timed, so the plan is a function of scene, picture and seed.
     pub(in super::super) fn train(prepared: &mut Prepared, fitted: Option<&Fitted>, spec: FilmSpec, seed: u64) {
-        let small = trial::small(spec);
+        let small = trial::small(spec, PIXELS);
         let after = After::new(bandwidth::PASSES, prepared.engine.schedule);
         let mut try_out = |merge: Merge, family: usize| {
             if let Some(f) = fitted {

@@ -11,8 +11,6 @@ use crate::{
 
 /// Training passes: variances of a tile's pixels to about a third, of which neighbours then take the mean.
 pub(super) const PASSES: u64 = 6;
-/// Pixels of the training's picture, at most.
-const PIXELS: f64 = 16_384.0;
 /// Training passes have this many times fewer light paths than those of the render, and gathers so many times more variance.
 pub(super) const SHARE: u64 = 8;
 
@@ -38,9 +36,9 @@ pub(super) struct Seen {
     pub(super) passes: [f64; PASSES as usize],
 }
 
-/// A picture of the same shape, small enough for a training.
-pub(super) fn small(spec: FilmSpec) -> FilmSpec {
-    let scale = (PIXELS / spec.pixels() as f64).sqrt().min(1.0);
+/// A picture of the same shape with at most about `pixels` pixels.
+pub(super) fn small(spec: FilmSpec, pixels: f64) -> FilmSpec {
+    let scale = (pixels / spec.pixels() as f64).sqrt().min(1.0);
     let shrunk = |n: u32| ((f64::from(n) * scale) as u32).max(1);
     FilmSpec { width: shrunk(spec.width), height: shrunk(spec.height), filter: Filter::Middle }
 }
