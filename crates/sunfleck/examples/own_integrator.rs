@@ -6,7 +6,7 @@ use std::{env, error::Error, fs, io, ops::ControlFlow, path::Path};
 use sunfleck::{
     bsdf::{DielectricMaterial, DiffuseMaterial, MirrorMaterial, Transport},
     camera::{Perspective, Project, View},
-    film::{Film, FilmSpec, Filter, PassImage},
+    film::{Film, FilmSpec, Filter, PassImage, Sample},
     integrator::{Entry, Integrator, ParamInfo, Params, Pass, PassRenderer},
     light::Sides,
     render::{Budget, Settings, render},
@@ -56,12 +56,12 @@ impl PassRenderer for Prepared<'_> {
         image.fill(|x, y, counts| {
             let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
             let mut sampler = Sampler::new(pass.seed, Domain::Camera, pass.index, pixel);
-            let raster = spec.raster(x, y, sampler.next_2d());
+            let Sample { raster, weight } = spec.sample(x, y, sampler.next_2d());
             let ray = world.camera().ray(raster, sampler.next_2d()).ray;
             let start = Start { ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
             let mut look = Look { world: &world, settings: self.settings, sum: Spectrum::BLACK, rays: 0 };
             counts.rays += walk(&world, &start, &self.settings.limits, &mut sampler, &mut look) + look.rays;
-            look.sum.to_rgb(pass.lambda)
+            look.sum.to_rgb(pass.lambda) * weight
         });
     }
 }

@@ -4,6 +4,7 @@ mod budget;
 mod camera;
 mod convert;
 mod diff;
+mod filter;
 mod output;
 mod picture;
 mod render;

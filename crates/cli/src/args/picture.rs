@@ -1,5 +1,5 @@
 //! Size of the picture, and how a pixel sees it.
-use super::values::pixels;
+use super::{filter::filter, values::pixels};
 use clap::{Args, ValueEnum};
 use sunfleck::{film::Filter, scene::Scene, spectrum::ColorMode};
 
@@ -13,9 +13,13 @@ pub(crate) struct PictureArgs {
     /// Height in pixels [default: 500]
     #[arg(long, value_name = "PIXELS", value_parser = pixels, allow_hyphen_values = true)]
     pub(crate) height: Option<u32>,
-    /// How a pixel sees the picture's plane [default: box, `nrenderer` with --compat nrenderer]
-    #[arg(long, value_name = "FILTER")]
-    pub(crate) filter: Option<FilterArg>,
+    /// How a pixel sees the picture's plane [default: what the scene file says, or box; `nrenderer` with --compat nrenderer]
+    ///
+    /// Kinds and settings: box (radius), triangle (radius), gaussian (radius, sigma), mitchell (radius, b, c), catmull-rom
+    /// (radius), lanczos (radius, tau), all in pixels, such as gaussian:radius=1.5:sigma=0.5. Box with its radius of 0.5 is the
+    /// pixel's own square; nrenderer is two pixels wide around the lower left corner, as NRenderer's path tracer jitters.
+    #[arg(long, value_name = "KIND", value_parser = filter)]
+    pub(crate) filter: Option<Filter>,
     /// What light is carried as
     #[arg(long, value_name = "MODE", default_value = "auto")]
     pub(crate) color: ColorArg,
@@ -39,24 +43,6 @@ impl ColorArg {
             Self::Auto if scene.is_dispersive() => ColorMode::Spectral,
             Self::Auto | Self::Rgb => ColorMode::Rgb,
             Self::Spectral => ColorMode::Spectral,
-        }
-    }
-}
-
-/// Pixel filters by name.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum FilterArg {
-    /// The pixel's own square
-    Box,
-    /// Two pixels wide around the lower left corner, as NRenderer's path tracer jitters
-    Nrenderer,
-}
-
-impl From<FilterArg> for Filter {
-    fn from(f: FilterArg) -> Self {
-        match f {
-            FilterArg::Box => Self::Box,
-            FilterArg::Nrenderer => Self::NRenderer,
         }
     }
 }

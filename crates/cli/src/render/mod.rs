@@ -132,7 +132,7 @@ fn film_spec(picture: &PictureArgs, loaded: &Loaded) -> Result<FilmSpec, Failure
         let message = format!("a picture of {width}×{height} has {pixels} pixels, more than {MAX_PIXELS}");
         return Err(Failure::input(message));
     }
-    let filter = picture.filter.map_or(defaults.filter, Into::into);
+    let filter = picture.filter.unwrap_or(defaults.filter);
     Ok(FilmSpec { width, height, filter })
 }
 

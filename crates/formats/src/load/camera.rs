@@ -106,6 +106,8 @@ pub struct Hints {
     pub width: Option<u32>,
     /// Height in pixels.
     pub height: Option<u32>,
+    /// How a pixel sees the picture's plane.
+    pub filter: Option<Filter>,
     /// Passes, each of one sample a pixel.
     pub passes: Option<u64>,
     /// Scatterings on a path from light to eye at most.

@@ -135,7 +135,7 @@ pub fn load(paths: &[PathBuf], options: &LoadOptions) -> Result<Loaded, Error> {
         camera_to: target.camera_to,
         materials: target.names,
         defaults: RenderDefaults {
-            filter: if compat { Filter::NRenderer } else { Filter::Box },
+            filter: if compat { Filter::NRenderer } else { hints.filter.unwrap_or_default() },
             tone: if compat { Tone::SquareRoot } else { Tone::Srgb },
             width: hints.width.unwrap_or(ours.width),
             height: hints.height.unwrap_or(ours.height),

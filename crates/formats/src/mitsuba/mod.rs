@@ -11,6 +11,7 @@
 mod bsdfs;
 mod document;
 mod emitters;
+mod filters;
 mod import;
 mod indices;
 mod metals;

@@ -1,11 +1,13 @@
 //! `sensor`, `film`, `rfilter`, `sampler` and `integrator`: what the file says about the picture.
 
 use super::document::Found;
+use super::filters::gaussian;
 use super::props::Props;
 use super::scene::Importer;
 use crate::load::{CameraSettings, Hints, Projection};
 use glam::{DVec2, DVec3};
 use sunfleck::camera::View;
+use sunfleck::film::Filter;
 
 const SENSORS: [&str; 14] = [
     "batch",
@@ -24,7 +26,6 @@ const SENSORS: [&str; 14] = [
     "pinhole",
 ];
 const FILMS: [&str; 7] = ["exrfilm", "hdrfilm", "ldrfilm", "mfilm", "pngfilm", "specfilm", "tiledhdrfilm"];
-const FILTERS: [&str; 7] = ["box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent", "whitenoise"];
 
 /// Sides of a picture in pixels.
 const MAX_SIDE: i64 = 1 << 20;
@@ -35,11 +36,13 @@ struct Film {
     size: [u32; 2],
     /// First pixel of each axis, and how many.
     crop: [[u32; 2]; 2],
+    filter: Filter,
 }
 
 impl Default for Film {
     fn default() -> Self {
-        Self { size: [768, 576], crop: [[0, 768], [0, 576]] }
+        let filter = gaussian(0.5).unwrap_or_default();
+        Self { size: [768, 576], crop: [[0, 768], [0, 576]], filter }
     }
 }
 
@@ -76,6 +79,7 @@ impl<'d> Importer<'d, '_> {
         };
         let [width, height] = film.crop.map(|[_, count]| count);
         (hints.width, hints.height) = (Some(width), Some(height));
+        hints.filter = Some(film.filter);
         if let Some(number) = props.object("sampler")? {
             let sampler = self.props(number);
             hints.passes = sampler.integer("sample_count", 1..=1_000_000_000)?.map(|n| n as u64);
@@ -112,24 +116,16 @@ impl<'d> Importer<'d, '_> {
             let count = side(names[1], size[axis] - from)?.min(size[axis] - from);
             crop[axis] = [from, count];
         }
-        if let Some(number) = props.object("rfilter")? {
-            let filter = self.props(number);
-            let (kind, at) = filter.element.plugin()?;
-            match kind {
-                "box" => {}
-                _ if FILTERS.contains(&kind) => {
-                    let message = "each pixel is the mean over its own square, whatever the filter";
-                    self.warn_once("mitsuba::filter", "", &filter, message);
-                }
-                _ => return Err(at.unknown("filter", kind, FILTERS)),
-            }
-        }
+        let filter = match props.object("rfilter")? {
+            Some(number) => self.filter(number)?,
+            None => gaussian(0.5).unwrap_or_default(),
+        };
         // How the picture is stored is for the command line to say.
         props.ignore(&["filename", "file_format", "pixel_format", "component_format", "banner", "gamma", "exposure"]);
         props.ignore(&["attach_log", "high_quality_edges", "sample_border", "compensate", "tonemap_method", "key"]);
         props.ignore(&["burn", "digits", "variable", "crop_scale", "label", "size", "channel_names", "burst"]);
         self.tell_unused(&props);
-        Ok(Film { size, crop })
+        Ok(Film { size, crop, filter })
     }
 
     /// What the file wants to be rendered with: told of, and limits taken.

@@ -268,6 +268,23 @@ fn pictures_begin_where_v_is_zero_and_sides_where_normals_point() {
 }
 
 #[test]
+fn filters_are_those_of_the_film_and_a_bell_without_one() {
+    use sunfleck::film::{Curve, Filter};
+    let filter = |said: &str| {
+        let film = format!("<sensor type='perspective'><film type='hdrfilm'>{said}</film></sensor>");
+        loaded(&film).defaults.filter
+    };
+    let shaped = |curve, radius| Filter::shaped(curve, Vec2::splat(radius)).unwrap();
+    assert_eq!(filter(""), shaped(Curve::Gaussian { sigma: 0.5 }, 2.0));
+    assert_eq!(filter("<rfilter type='box'/>"), Filter::Box);
+    assert_eq!(filter("<rfilter type='tent'/>"), shaped(Curve::Tent, 1.0));
+    let mitchell = "<rfilter type='mitchell'><float name='B' value='0.5'/></rfilter>";
+    assert_eq!(filter(mitchell), shaped(Curve::Cubic { b: 0.5, c: 1.0 / 3.0 }, 2.0));
+    let lanczos = "<rfilter type='lanczos'><integer name='lobes' value='2'/></rfilter>";
+    assert_eq!(filter(lanczos), shaped(Curve::Lanczos { tau: 2.0 }, 2.0));
+}
+
+#[test]
 fn the_integrators_depth_counts_scatterings() {
     let depth = |inner: &str| loaded(&format!("<integrator {inner}</integrator>")).hints.scatterings;
     assert_eq!(depth("type='path'><integer name='max_depth' value='6'/>"), Some(5));

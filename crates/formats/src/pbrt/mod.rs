@@ -14,6 +14,7 @@ mod covers;
 mod curve;
 mod curved;
 mod directives;
+mod filters;
 mod import;
 mod infinite;
 mod layers;

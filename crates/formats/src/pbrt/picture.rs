@@ -1,6 +1,7 @@
 //! `Camera`, `Film`, `PixelFilter`, `Sampler` and `Integrator`: what the file says about the picture.
 
 use super::directives::{Importer, unknown, warning};
+use super::filters;
 use super::params::{Found, Params};
 use super::sensor::white_balance;
 use crate::lines::shortened;
@@ -133,9 +134,10 @@ impl Importer<'_> {
     /// How the file wants to be rendered.
     fn hints(&mut self, width: u32, height: u32) -> Found<Hints> {
         let mut hints = Hints { width: Some(width), height: Some(height), ..Hints::default() };
-        if let Some((name, params)) = self.picture.filter.take() {
-            self.filter(&name, &params)?;
-        }
+        hints.filter = Some(match self.picture.filter.take() {
+            Some((name, params)) => self.filter(&name, &params)?,
+            None => filters::unsaid(self.picture.is_version_3),
+        });
         if let Some(params) = self.picture.sampler.take() {
             hints.passes = params.integer("pixelsamples", 1..=1_000_000_000)?.map(|n| n as u64);
             if let (Some(x), Some(y)) =
@@ -158,21 +160,6 @@ impl Importer<'_> {
             hints.integrator = Some(name);
         }
         Ok(hints)
-    }
-
-    /// Every filter is shown as a box one pixel wide: means agree, edges are a little sharper.
-    fn filter(&mut self, name: &str, params: &Params) -> Found<()> {
-        const FILTERS: [&str; 5] = ["box", "gaussian", "mitchell", "sinc", "triangle"];
-        if !FILTERS.contains(&name) {
-            return Err(unknown(&params.at, "pixel filter", name, FILTERS));
-        }
-        let wide = ["xradius", "yradius"].into_iter().map(|n| params.number(n, 0.5)).collect::<Found<Vec<_>>>()?;
-        let is_ours = name == "box" && wide.iter().all(|r| *r == 0.5);
-        if !is_ours {
-            let message = "each pixel is the mean over its own square, whatever the filter";
-            self.warn_once("pbrt::filter", "", || params.at.tell(warning("pbrt::filter", message), ""));
-        }
-        Ok(())
     }
 }
 

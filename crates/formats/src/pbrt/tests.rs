@@ -237,6 +237,26 @@ fn included_mistakes_name_the_included_file_and_outside_is_closed() {
     assert!(load(&[main], &LoadOptions { allow_outside: true, ..LoadOptions::default() }).is_ok());
 }
 
+#[test]
+fn each_version_has_its_filters_and_its_own_default() {
+    use sunfleck::film::{Curve, Filter};
+    let filter = |film: &str, said: &str| {
+        let text = format!("Film \"{film}\" {said} WorldBegin\n");
+        load_files(&[("main.pbrt", &text)]).1.unwrap().defaults.filter
+    };
+    let shaped = |curve, x, y| Filter::shaped(curve, glam::Vec2::new(x, y)).unwrap();
+    let cubic = |b, c| Curve::Cubic { b, c };
+    assert_eq!(filter("image", ""), Filter::Box);
+    assert_eq!(filter("rgb", ""), shaped(Curve::Gaussian { sigma: 0.5 }, 1.5, 1.5));
+    assert_eq!(filter("image", "PixelFilter \"gaussian\""), shaped(Curve::Gaussian { sigma: 0.5 }, 2.0, 2.0));
+    assert_eq!(filter("rgb", "PixelFilter \"triangle\" \"float xradius\" 1"), shaped(Curve::Tent, 1.0, 2.0));
+    assert_eq!(filter("rgb", "PixelFilter \"box\""), Filter::Box);
+    assert_eq!(filter("rgb", "PixelFilter \"mitchell\" \"float B\" 0.5"), shaped(cubic(0.5, 1.0 / 3.0), 2.0, 2.0));
+    assert_eq!(filter("rgb", "PixelFilter \"sinc\""), shaped(Curve::Lanczos { tau: 3.0 }, 4.0, 4.0));
+    let (told, _) = load_files(&[("main.pbrt", "PixelFilter \"box\" \"float xradius\" -1 WorldBegin\n")]);
+    assert!(told.contains("FOLDER/main.pbrt:1:1") && told.contains("radii"), "{told}");
+}
+
 /// One of everything.
 const ALL: &str = "Film \"rgb\" \"integer xresolution\" 64 \"float iso\" 200 \"float cropwindow\" [0 1 0 .5]\n\
     Sampler \"halton\" \"integer pixelsamples\" 4 PixelFilter \"gaussian\" Integrator \"sppm\" \"integer maxdepth\" 5\n\

@@ -92,16 +92,10 @@ impl PassImage {
     /// Adds contributions in the order given, which is what makes the sum independent of threads.
     pub fn splat(&mut self, splats: &[Splat]) {
         let (w, h) = (self.spec.width as i32, self.spec.height as i32);
-        let (offsets, weight) = self.spec.filter.holders();
-        let per_pixel = weight * self.spec.pixels() as f32;
+        let (filter, per_pixel) = (self.spec.filter, self.spec.pixels() as f32);
         for s in splats.iter().filter(|s| s.value.is_finite()) {
-            let p = (s.raster * Vec2::new(w as f32, h as f32)).floor();
-            for (dx, dy) in offsets {
-                let (x, y) = (p.x as i32 + dx, p.y as i32 + dy);
-                if (0..w).contains(&x) && (0..h).contains(&y) {
-                    self.pixels[(y * w + x) as usize] += s.value * per_pixel;
-                }
-            }
+            let p = s.raster * Vec2::new(w as f32, h as f32);
+            filter.share(p, [w, h], |x, y, share| self.pixels[(y * w + x) as usize] += s.value * (share * per_pixel));
         }
     }
 }

@@ -3,7 +3,7 @@ use super::Pass;
 use crate::{
     bsdf::Transport,
     camera::{CameraRay, Project},
-    film::FilmSpec,
+    film::{FilmSpec, Sample},
     sampler::{Domain, Sampler},
     scene::World,
     spectrum::Spectrum,
@@ -15,6 +15,8 @@ use glam::Vec2;
 pub(super) struct EyeRay {
     /// Place on the picture.
     pub(super) raster: Vec2,
+    /// What is found there counts so much: see [`crate::film::Sample`].
+    pub(super) weight: f32,
     /// Ray and solid angle.
     pub(super) camera: CameraRay,
     /// The path's numbers; two pairs are drawn.
@@ -33,9 +35,9 @@ impl EyeRay {
     pub(super) fn new(world: &World, spec: FilmSpec, pass: &Pass, sample: u64, (x, y): (u32, u32)) -> Self {
         let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
         let mut sampler = Sampler::new(pass.seed, Domain::Camera, sample, pixel);
-        let raster = spec.raster(x, y, sampler.next_2d());
+        let Sample { raster, weight } = spec.sample(x, y, sampler.next_2d());
         let camera = world.camera().ray(raster, lens_point(world, &mut sampler));
-        Self { raster, camera, sampler }
+        Self { raster, weight, camera, sampler }
     }
     /// The beginning of a camera walk.
     #[inline]

@@ -69,13 +69,14 @@ impl PassRenderer for Prepared<'_> {
 fn lights_seen_directly(world: &World, pass: &Pass, image: &mut PassImage) {
     let spec = image.spec();
     image.fill(|x, y, counts| {
-        let ray = EyeRay::new(world, spec, pass, pass.index, (x, y)).camera.ray;
+        let eye = EyeRay::new(world, spec, pass, pass.index, (x, y));
+        let ray = eye.camera.ray;
         counts.rays += 1;
         let le = match world.intersect(&ray) {
             Some(at) => world.emitted(&at),
             None => world.escaped(ray.o, ray.d).fold(Spectrum::BLACK, |sum, sky| sum + sky.le),
         };
-        le.to_rgb(pass.lambda)
+        le.to_rgb(pass.lambda) * eye.weight
     });
 }
 

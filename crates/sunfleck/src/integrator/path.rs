@@ -42,7 +42,7 @@ impl PassRenderer for Prepared<'_> {
         let spec = image.spec();
         image.fill(|x, y, counts| {
             let mut eye = EyeRay::new(&world, spec, pass, pass.index, (x, y));
-            self.radiance(&world, &eye.start(), &mut eye.sampler, counts).to_rgb(pass.lambda)
+            self.radiance(&world, &eye.start(), &mut eye.sampler, counts).to_rgb(pass.lambda) * eye.weight
         });
     }
 }

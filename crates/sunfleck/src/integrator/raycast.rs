@@ -4,7 +4,7 @@ use super::{Entry, Integrator, Pass, PassRenderer};
 use crate::{
     bsdf::{Diffuse, Transport},
     camera::Project,
-    film::{FilmSpec, Filter, PassImage},
+    film::{FilmSpec, Filter, PassImage, Sample},
     light::Light,
     sampler::{Domain, Sampler},
     scene::{Interaction, Scene, World},
@@ -51,12 +51,13 @@ impl PassRenderer for Prepared<'_> {
             let pixel = u64::from(y) * u64::from(spec.width) + u64::from(x);
             let u = match spec.filter {
                 Filter::NRenderer | Filter::Middle => Vec2::splat(0.5),
-                Filter::Box => Sampler::new(pass.seed, Domain::Camera, pass.index, pixel).next_2d(),
+                Filter::Box | Filter::Shaped(_) => Sampler::new(pass.seed, Domain::Camera, pass.index, pixel).next_2d(),
             };
-            let ray = world.camera().ray(spec.raster(x, y, u), Vec2::splat(0.5)).ray;
+            let Sample { raster, weight } = spec.sample(x, y, u);
+            let ray = world.camera().ray(raster, Vec2::splat(0.5)).ray;
             counts.rays += 2;
             let Some(at) = world.intersect(&ray) else { return Rgb::ZERO };
-            self.shade(&world, &at, ray.o).to_rgb(pass.lambda)
+            self.shade(&world, &at, ray.o).to_rgb(pass.lambda) * weight
         });
     }
 }

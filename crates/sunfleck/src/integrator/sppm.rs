@@ -125,7 +125,7 @@ impl Prepared<'_> {
     fn fresh(&self, spec: FilmSpec) -> State {
         let one = |i: usize| {
             let (x, y) = (i as u32 % spec.width, i as u32 / spec.width);
-            let r = self.radii.at(spec.raster(x, y, glam::Vec2::splat(0.5)));
+            let r = self.radii.at(spec.middle(x, y));
             Statistics { r2: r * r, kept: 0.0, tau: Rgb::ZERO, direct: Rgb::ZERO }
         };
         State { passes: 0, pixels: (0..spec.pixels()).map(one).collect() }
@@ -200,7 +200,7 @@ impl Prepared<'_> {
             rays: 0,
         };
         let rays = walk(world, &eye.start(), &limits, &mut eye.sampler, &mut look);
-        let rgb = |s: Spectrum| s.to_rgb(pass.lambda);
+        let rgb = |s: Spectrum| s.to_rgb(pass.lambda) * eye.weight;
         let whole = |c: Rgb| if c.is_finite() { c } else { Rgb::ZERO };
         let found = Found {
             direct: whole(rgb(look.direct)),

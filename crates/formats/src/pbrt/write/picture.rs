@@ -3,9 +3,10 @@
 use super::Writer;
 use super::text::{float, matrix, numbers, param, string};
 use crate::load::{CameraSettings, Projection};
-use glam::{Affine3A, Mat3, Vec3};
+use glam::{Affine3A, Mat3, Vec2, Vec3};
 use std::fmt::Write;
 use sunfleck::camera::Unrolling;
+use sunfleck::film::{Curve, Filter};
 
 impl Writer<'_> {
     pub(super) fn picture(&mut self) {
@@ -27,7 +28,8 @@ impl Writer<'_> {
             + &param("integer", "yresolution", &height.to_string())
             + &string("filename", "sunfleck.exr");
         self.line(&format!("Film \"rgb\"{film}"));
-        self.line("PixelFilter \"box\" \"float xradius\" [ 0.5 ] \"float yradius\" [ 0.5 ]");
+        let filter = filter(scene.hints.filter.unwrap_or_default());
+        self.line(&filter);
         if let Some(passes) = scene.hints.passes {
             self.line(&format!("Sampler \"halton\"{}", param("integer", "pixelsamples", &passes.to_string())));
         }
@@ -65,6 +67,19 @@ fn longitudes(c: &CameraSettings) -> Affine3A {
     let y = (up - x * x.dot(up)).normalize_or(Vec3::Y);
     let z = x.cross(y) * if c.is_mirrored { -1.0 } else { 1.0 };
     Affine3A::from_mat3_translation(Mat3::from_cols(x, y, z), c.view.position)
+}
+
+/// Filters without a curve are no file's.
+fn filter(filter: Filter) -> String {
+    let (curve, radius) = filter.shape().unwrap_or((Curve::Box, Vec2::splat(0.5)));
+    let (name, settings) = match curve {
+        Curve::Box => ("box", String::new()),
+        Curve::Tent => ("triangle", String::new()),
+        Curve::Gaussian { sigma } => ("gaussian", float("sigma", sigma)),
+        Curve::Cubic { b, c } => ("mitchell", float("B", b) + &float("C", c)),
+        Curve::Lanczos { tau } => ("sinc", float("tau", tau)),
+    };
+    format!("PixelFilter \"{name}\"{}{}{settings}", float("xradius", radius.x), float("yradius", radius.y))
 }
 
 fn camera(c: &CameraSettings, size: [u32; 2]) -> String {

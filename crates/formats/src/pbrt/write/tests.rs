@@ -70,6 +70,7 @@ fn round_trip(path: &Path) -> (Report, Loaded) {
     let counts = |l: &Loaded| (l.surfaces, l.lights, l.builder.parts().instances.len());
     assert_eq!(counts(&first), counts(&second), "{}", path.display());
     assert_eq!(closures(&first), closures(&second), "{}", path.display());
+    assert_eq!(first.defaults.filter, second.defaults.filter, "{}", path.display());
     let (first, second) = (blocks(first), blocks(second));
     for (i, (a, b)) in first.iter().zip(&second).enumerate() {
         assert!(

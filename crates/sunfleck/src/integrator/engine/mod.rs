@@ -355,7 +355,7 @@ impl Prepared<'_> {
                 let rays = walk_evenly(&world, &start_ray, &limits, &mut ray.sampler, &mut lamps);
                 look.add_lamps(&lamps, rays);
             }
-            look.finish(rays).to_rgb(job.pass.lambda) * job.share
+            look.finish(rays).to_rgb(job.pass.lambda) * (job.share * ray.weight)
         });
     }
 
