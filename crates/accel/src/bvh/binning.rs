@@ -2,7 +2,10 @@
 //!
 //! Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies".
 
-use super::refs::{Bounds, Ref, xyz};
+use super::{
+    collapse::blocks_for,
+    refs::{Bounds, Ref, xyz},
+};
 use glam::Vec4;
 use rayon::prelude::*;
 
@@ -52,7 +55,7 @@ pub(super) struct ObjectSplit {
     axis: usize,
     /// First bin of the right side.
     bin: usize,
-    /// Sum over the sides of half surface times number of references.
+    /// Sum over the sides of half surface times number of blocks.
     pub(super) cost: f32,
 }
 
@@ -115,7 +118,7 @@ fn sweep<const K: usize>(bins: &[Bin; K], grid: Grid, axis: usize) -> Option<Obj
     for i in (1..K).rev() {
         bounds.grow(&bins[i].bounds);
         count += bins[i].count;
-        right[i] = if count == 0 { f32::INFINITY } else { bounds.half_area() * count as f32 };
+        right[i] = if count == 0 { f32::INFINITY } else { bounds.half_area() * blocks_for(count) as f32 };
     }
     let mut best: Option<(usize, f32)> = None;
     (bounds, count) = (Bounds::EMPTY, 0);
@@ -125,7 +128,7 @@ fn sweep<const K: usize>(bins: &[Bin; K], grid: Grid, axis: usize) -> Option<Obj
         if count == 0 {
             continue;
         }
-        let cost = bounds.half_area() * count as f32 + right[i];
+        let cost = bounds.half_area() * blocks_for(count) as f32 + right[i];
         if cost < best.map_or(f32::INFINITY, |b| b.1) {
             best = Some((i, cost));
         }

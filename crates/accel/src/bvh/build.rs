@@ -60,10 +60,7 @@ pub(super) fn build(refs: &mut [Ref], geometries: &[Geometry], quality: Quality)
         return Vec::new();
     }
     let side = Side::measure(refs);
-    let (extra, crowd) = match quality {
-        Quality::Default => (0.2, 4.0),
-        Quality::High => (1.0, 2.5),
-    };
+    let (extra, crowd) = quality.spatial();
     let builder = Builder { geometries, largest: side.bounds.half_area() * 0.02, crowd };
     let budget = (refs.len() as f32 * extra) as usize;
     let mut range = Range { refs, side, depth: 0, budget };

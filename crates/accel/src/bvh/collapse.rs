@@ -9,9 +9,10 @@ use super::{
     triangle::{Block, LANES},
 };
 
-/// Expected cost of visiting one node, in units of testing one block of triangles.
+/// What visiting one node and testing one block of triangles cost, measured: a smaller share for blocks makes for fuller
+/// ones, and so for smaller tables too.
 const NODE_COST: f32 = 1.0;
-const BLOCK_COST: f32 = 0.8;
+const BLOCK_COST: f32 = 0.5;
 /// Most triangles that collapse into one leaf.
 const MAX_LEAF: u32 = (LANES * Child::MAX_BLOCKS) as u32;
 
@@ -40,6 +41,12 @@ impl Plan {
 pub(super) struct Size {
     pub(super) nodes: u32,
     pub(super) blocks: u32,
+}
+
+/// Blocks of triangles that a leaf of `count` takes.
+#[inline(always)]
+pub(super) fn blocks_for(count: u32) -> u32 {
+    count.div_ceil(LANES as u32)
 }
 
 impl Size {
@@ -102,7 +109,7 @@ impl Forest {
             Choice { cost: inner.cost + half_area * NODE_COST, size: inner.size.plus(Size { nodes: 1, blocks: 0 }) };
         let count = left.count + right.count;
         let blocks = left.blocks && right.blocks;
-        let in_leaf = count.div_ceil(LANES as u32);
+        let in_leaf = blocks_for(count);
         let leaf = Choice { cost: half_area * BLOCK_COST * in_leaf as f32, size: Size { nodes: 0, blocks: in_leaf } };
         let is_leaf = blocks && count <= MAX_LEAF && leaf.cost <= inner.cost;
         let mut best = [if is_leaf { leaf } else { inner }; 7];

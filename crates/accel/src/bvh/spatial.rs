@@ -5,6 +5,7 @@
 use super::{
     Geometry,
     clip::cut,
+    collapse::blocks_for,
     refs::{Bounds, Ref},
 };
 
@@ -55,7 +56,7 @@ pub(super) struct SpatialSplit {
     ruler: Ruler,
     /// First bin of the right side.
     bin: usize,
-    /// Sum over the sides of half surface times number of references.
+    /// Sum over the sides of half surface times number of blocks.
     pub(super) cost: f32,
     left: (Bounds, u32),
     right: (Bounds, u32),
@@ -154,7 +155,8 @@ fn sweep(bins: &[Bin; BINS], ruler: Ruler, most: u32) -> Option<SpatialSplit> {
         if count == 0 || right[i].1 == 0 || count + right[i].1 > most {
             continue;
         }
-        let cost = bounds.half_area() * count as f32 + right[i].0.half_area() * right[i].1 as f32;
+        let cost =
+            bounds.half_area() * blocks_for(count) as f32 + right[i].0.half_area() * blocks_for(right[i].1) as f32;
         if cost < best.as_ref().map_or(f32::INFINITY, |b| b.cost) {
             best = Some(SpatialSplit { ruler, bin: i, cost, left: (bounds, count), right: right[i] });
         }
