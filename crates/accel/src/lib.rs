@@ -11,5 +11,6 @@ mod ray;
 
 pub use aabb::Aabb;
 pub use bvh::{Bvh, Counts, Geometry, Instance, Objects, Quality, SimdLevel};
+pub use memory::concat;
 pub use points::{KdTree, Neighbours, PointGrid};
 pub use ray::{Hit, Ray};

@@ -1,5 +1,7 @@
 //! Large tables, on large pages where the system has them.
 
+use rayon::prelude::*;
+
 /// An empty vector with room for `capacity` items. On Linux the kernel is asked for huge pages: rays jump about in these
 /// tables, and with small pages the address translation costs as much as the memory itself.
 pub(crate) fn large_vec<T>(capacity: usize) -> Vec<T> {
@@ -7,6 +9,27 @@ pub(crate) fn large_vec<T>(capacity: usize) -> Vec<T> {
     #[cfg(target_os = "linux")]
     advise_huge_pages(table.as_ptr().cast(), capacity * size_of::<T>());
     table
+}
+
+/// The parts one after the other, copied in parallel.
+pub fn concat<T: Copy + Send + Sync>(parts: &[&[T]]) -> Vec<T> {
+    let count = parts.iter().map(|part| part.len()).sum();
+    let mut all = large_vec(count);
+    let mut rest = &mut all.spare_capacity_mut()[..count];
+    let mut pairs = Vec::with_capacity(parts.len());
+    for &part in parts {
+        let (room, more) = std::mem::take(&mut rest).split_at_mut(part.len());
+        pairs.push((part, room));
+        rest = more;
+    }
+    pairs.into_par_iter().for_each(|(part, room)| {
+        for (item, place) in part.iter().zip(room) {
+            place.write(*item);
+        }
+    });
+    // SAFETY: the parts have `count` items together, and each was written to its place.
+    unsafe { all.set_len(count) };
+    all
 }
 
 /// `count` zeros (or what `T` has for zero), likewise on huge pages. Memory that the system gives as zeros is not written to,
@@ -30,4 +53,17 @@ fn advise_huge_pages(start: *const u8, bytes: usize) {
     // SAFETY: the range lies inside one live allocation, and the advice does not change what memory holds. It may be
     // refused, which is as good as not asking.
     unsafe { libc::madvise(start.add(skip).cast_mut().cast(), whole_pages, libc::MADV_HUGEPAGE) };
+}
+
+#[cfg(test)]
+mod tests {
+    use super::concat;
+
+    #[test]
+    fn parts_come_one_after_the_other() {
+        let parts: Vec<Vec<u16>> = (0..300).map(|n| (0..n % 7 * 900).map(|i| i ^ n).collect()).collect();
+        let slices: Vec<&[u16]> = parts.iter().map(Vec::as_slice).collect();
+        assert_eq!(concat(&slices), parts.concat());
+        assert_eq!(concat::<u16>(&[]), []);
+    }
 }

@@ -72,6 +72,14 @@ impl Filter {
             }
         }
     }
+    /// Rows, up and down from that of a place, whose pixels may see it.
+    pub(super) fn reach(&self) -> i32 {
+        match self {
+            Self::Box | Self::Middle => 0,
+            Self::NRenderer => 1,
+            Self::Shaped(s) => s.y.radius.ceil() as i32,
+        }
+    }
     /// Calls `give` with each pixel of a picture of `size` pixels that sees the place `p` (in pixels), and with its share of
     /// the light that lands there; on the mean over places the shares sum to one.
     #[inline]

@@ -3,11 +3,13 @@ mod accumulate;
 mod filter;
 mod pass_image;
 mod profile;
+mod splats;
 
 pub use accumulate::Film;
 pub use filter::{Filter, MAX_FILTER_RADIUS, Sample, Shaped};
-pub use pass_image::{Counts, PassImage, Splat};
+pub use pass_image::{Counts, PassImage};
 pub use profile::Curve;
+pub use splats::{Splat, Splats};
 
 /// Size and pixel filter of a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]

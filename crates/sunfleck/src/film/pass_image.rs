@@ -1,7 +1,6 @@
 //! What one pass writes.
-use super::FilmSpec;
+use super::{FilmSpec, splats, splats::Splats};
 use crate::spectrum::Rgb;
-use glam::Vec2;
 use rayon::prelude::*;
 use std::ops::AddAssign;
 
@@ -25,15 +24,6 @@ impl AddAssign for Counts {
         self.emitted += o.emitted;
         self.stored += o.stored;
     }
-}
-
-/// A contribution that lands anywhere on the picture.
-#[derive(Clone, Copy, Debug)]
-pub struct Splat {
-    /// Raster coordinates (see [`crate::camera`]).
-    pub raster: Vec2,
-    /// Radiance times raster area, i.e. what is added per unit of raster area.
-    pub value: Rgb,
 }
 
 /// One estimate of the whole picture, W/(m²·sr); buffers are reused from pass to pass.
@@ -60,7 +50,7 @@ impl PassImage {
     }
     /// Makes it black again.
     pub fn clear(&mut self) {
-        self.pixels.fill(Rgb::ZERO);
+        self.pixels.par_chunks_mut(1 << 14).for_each(|part| part.fill(Rgb::ZERO));
         self.counts = Counts::default();
     }
     /// Adds `render(x, y)` to every pixel, rows in parallel. A non-finite value counts as black: one broken path must not
@@ -89,13 +79,11 @@ impl PassImage {
         let rows: Vec<Counts> = self.pixels.par_chunks_mut(width).enumerate().map(row).collect();
         rows.into_iter().for_each(|c| self.counts += c);
     }
-    /// Adds contributions in the order given, which is what makes the sum independent of threads.
-    pub fn splat(&mut self, splats: &[Splat]) {
-        let (w, h) = (self.spec.width as i32, self.spec.height as i32);
-        let (filter, per_pixel) = (self.spec.filter, self.spec.pixels() as f32);
-        for s in splats.iter().filter(|s| s.value.is_finite()) {
-            let p = s.raster * Vec2::new(w as f32, h as f32);
-            filter.share(p, [w, h], |x, y, share| self.pixels[(y * w + x) as usize] += s.value * (share * per_pixel));
+    /// Adds contributions, bands of rows in parallel. Each pixel takes them part by part, and in the order that a part has:
+    /// the sum does not depend on threads.
+    pub fn splat(&mut self, parts: &[&Splats]) {
+        if parts.iter().any(|p| !p.is_empty()) {
+            splats::add(parts, &self.spec, &mut self.pixels);
         }
     }
 }
@@ -103,13 +91,15 @@ impl PassImage {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::Filter;
+    use crate::film::{Filter, Splat};
+    use glam::Vec2;
 
     #[test]
     fn a_splat_keeps_its_energy_and_falls_into_its_pixel() {
         for filter in [Filter::Box, Filter::NRenderer] {
             let mut image = PassImage::new(FilmSpec { width: 4, height: 2, filter });
-            image.splat(&[Splat { raster: Vec2::new(0.6, 0.8), value: Rgb::ONE }]);
+            let splat = Splat { raster: Vec2::new(0.6, 0.8), value: Rgb::ONE };
+            image.splat(&[&Splats::new(&image.spec(), &[splat])]);
             let mean = image.pixels().iter().map(|p| p.x).sum::<f32>() / 8.0;
             assert!((mean - 1.0).abs() < 1e-6, "{filter:?}");
             assert!(image.pixels()[4 + 2].x > 0.0);
@@ -120,7 +110,8 @@ mod tests {
     fn broken_values_are_dropped() {
         let mut image = PassImage::new(FilmSpec { width: 2, height: 1, filter: Filter::Box });
         image.fill(|x, _, _| if x == 0 { Rgb::splat(f32::NAN) } else { Rgb::ONE });
-        image.splat(&[Splat { raster: Vec2::splat(0.1), value: Rgb::splat(f32::INFINITY) }]);
+        let splat = Splat { raster: Vec2::splat(0.1), value: Rgb::splat(f32::INFINITY) };
+        image.splat(&[&Splats::new(&image.spec(), &[splat])]);
         assert_eq!(image.pixels(), [Rgb::ZERO, Rgb::ONE]);
     }
 }

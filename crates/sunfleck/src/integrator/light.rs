@@ -4,7 +4,7 @@ use super::{Entry, Integrator, Pass, PassRenderer, eye_ray::EyeRay};
 use crate::{
     bsdf::Transport,
     camera::Project,
-    film::{Counts, FilmSpec, PassImage, Splat},
+    film::{Counts, FilmSpec, PassImage, Splat, Splats},
     photon::Source,
     sampler::{Domain, Sampler},
     scene::{Scene, World},
@@ -47,7 +47,8 @@ impl PassRenderer for Prepared<'_> {
         let world = self.scene.world(pass.lambda, pass.time);
         lights_seen_directly(&world, pass, image);
         let paths = image.spec().pixels() as u64;
-        let chunks: Vec<(Vec<Splat>, Counts)> = (0..paths.div_ceil(CHUNK))
+        let spec = image.spec();
+        let chunks: Vec<(Splats, Counts)> = (0..paths.div_ceil(CHUNK))
             .into_par_iter()
             .map(|c| {
                 let mut out =
@@ -55,13 +56,11 @@ impl PassRenderer for Prepared<'_> {
                 for index in c * CHUNK..((c + 1) * CHUNK).min(paths) {
                     out.trace(Sampler::new(pass.seed, Domain::Light, pass.index, index), paths);
                 }
-                (out.splats, out.counts)
+                (Splats::new(&spec, &out.splats), out.counts)
             })
             .collect();
-        for (splats, counts) in chunks {
-            image.splat(&splats);
-            image.counts += counts;
-        }
+        chunks.iter().for_each(|(_, counts)| image.counts += *counts);
+        image.splat(&chunks.iter().map(|(splats, _)| splats).collect::<Vec<_>>());
     }
 }
 

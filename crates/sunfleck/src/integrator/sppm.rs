@@ -147,13 +147,13 @@ impl Prepared<'_> {
                 self.look(&world, &map, pass, spec, at, s.r2.sqrt())
             })
             .collect();
-        let mut values = Vec::with_capacity(found.len());
-        for (s, (f, counts)) in state.pixels.iter_mut().zip(found) {
+        found.iter().for_each(|(_, counts)| image.counts += *counts);
+        let add = |(s, (f, _)): (&mut Statistics, &(Found, Counts))| {
             let old = if before > 0.0 { s.estimate(before) } else { Rgb::ZERO };
-            s.add(&f, self.settings.alpha);
-            values.push(after * s.estimate(after) - before * old);
-            image.counts += counts;
-        }
+            s.add(f, self.settings.alpha);
+            after * s.estimate(after) - before * old
+        };
+        let values: Vec<Rgb> = state.pixels.par_iter_mut().zip(&found).map(add).collect();
         state.passes += 1;
         image.fill(|x, y, _| values[y as usize * spec.width as usize + x as usize]);
     }

@@ -7,6 +7,7 @@ use crate::{
     spectrum::Spectrum,
     walk::{Arrival, Limits, Step, Visit, walk},
 };
+use accel::concat;
 use glam::Vec3;
 use rayon::prelude::*;
 
@@ -117,18 +118,12 @@ impl Shower {
 
 impl Catch {
     fn join(chunks: &[Self]) -> Self {
-        let stored = chunks.iter().map(|c| c.photons.len()).sum();
-        let mut all = Self {
-            positions: Vec::with_capacity(stored),
-            photons: Vec::with_capacity(stored),
-            counts: Counts { stored: stored as u64, ..Counts::default() },
-        };
-        for c in chunks {
-            all.positions.extend_from_slice(&c.positions);
-            all.photons.extend_from_slice(&c.photons);
-            all.counts += c.counts;
-        }
-        all
+        let mut counts = Counts::default();
+        chunks.iter().for_each(|c| counts += c.counts);
+        let positions: Vec<&[Vec3]> = chunks.iter().map(|c| c.positions.as_slice()).collect();
+        let photons: Vec<&[Photon]> = chunks.iter().map(|c| c.photons.as_slice()).collect();
+        counts.stored = photons.iter().map(|p| p.len() as u64).sum();
+        Self { positions: concat(&positions), photons: concat(&photons), counts }
     }
 }
 

@@ -10,13 +10,14 @@ use super::{
 use crate::{
     bsdf::Transport,
     camera::{CameraSample, Project},
-    film::{Counts, FilmSpec, PassImage, Splat},
+    film::{Counts, FilmSpec, PassImage, Splat, Splats},
     integrator::{Pass, eye_ray::lens_point},
     photon::{Emission, Radii, Source},
     sampler::{Domain, Sampler},
     scene::{Interaction, Scattered, World},
     walk::{Arrival, Limits, Step, Visit, walk},
 };
+use accel::concat;
 use glam::{Vec2, Vec3};
 use rayon::prelude::*;
 use std::ops::Range;
@@ -81,6 +82,7 @@ impl Shower<'_> {
                 for path in start + c * CHUNK..(start + (c + 1) * CHUNK).min(end) {
                     self.trace(path, &mut chunk);
                 }
+                chunk.sorted = Splats::new(&self.spec, &std::mem::take(&mut chunk.splats));
                 chunk
             })
             .collect();
@@ -110,24 +112,22 @@ struct Chunk {
     photons: Vec<Photon>,
     vertices: Vertices,
     splats: Vec<Splat>,
+    /// The same, when all are there.
+    sorted: Splats,
     counts: Counts,
 }
 
-fn join(chunks: Vec<Chunk>, image: &mut PassImage) -> Subpaths {
-    let sum = |f: fn(&Chunk) -> usize| chunks.iter().map(f).sum();
-    let mut all = Subpaths {
-        positions: Vec::with_capacity(sum(|c| c.positions.len())),
-        photons: Vec::with_capacity(sum(|c| c.photons.len())),
-        vertices: Vec::with_capacity(chunks.len()),
-    };
-    image.counts.stored += sum(|c| c.photons.len() + c.vertices.len()) as u64;
-    for c in chunks {
-        all.positions.extend_from_slice(&c.positions);
-        all.photons.extend_from_slice(&c.photons);
-        all.vertices.push(c.vertices);
-        image.splat(&c.splats);
+fn join(mut chunks: Vec<Chunk>, image: &mut PassImage) -> Subpaths {
+    for c in &chunks {
         image.counts += c.counts;
+        image.counts.stored += (c.photons.len() + c.vertices.len()) as u64;
     }
+    image.splat(&chunks.iter().map(|c| &c.sorted).collect::<Vec<_>>());
+    let vertices = chunks.iter_mut().map(|c| std::mem::take(&mut c.vertices)).collect();
+    let positions: Vec<&[Vec3]> = chunks.iter().map(|c| c.positions.as_slice()).collect();
+    let photons: Vec<&[Photon]> = chunks.iter().map(|c| c.photons.as_slice()).collect();
+    let all = Subpaths { positions: concat(&positions), photons: concat(&photons), vertices };
+    chunks.into_par_iter().for_each(drop);
     all
 }
 
