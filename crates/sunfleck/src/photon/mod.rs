@@ -40,6 +40,7 @@ pub use ledger::{Account, Amount, Audit, Ledger};
 pub use map::{NearestMap, RadiusMap};
 pub use radii::Radii;
 pub use radius::{Reach, Schedule};
+pub(crate) use sight::Sight;
 pub use source::{Emission, Source};
 pub use survey::{Sighting, survey};
 pub use uniformity::Evenness;

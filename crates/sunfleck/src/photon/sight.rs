@@ -12,8 +12,8 @@ use glam::Vec2;
 
 /// The first connectible surface on a camera path, past mirrors and glass.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Sight {
-    pub(super) at: Interaction,
+pub(crate) struct Sight {
+    pub(crate) at: Interaction,
     /// Throughput of the path that leads there.
     pub(super) beta: Spectrum,
     pub(super) scatterings: u32,
@@ -26,7 +26,7 @@ pub(super) struct Sight {
 
 impl Sight {
     /// Follows the path that begins at `raster` through the lens at `u_lens`; `None` if it meets no such surface.
-    pub(super) fn find(
+    pub(crate) fn find(
         world: &World,
         limits: Limits,
         raster: Vec2,
@@ -40,7 +40,7 @@ impl Sight {
         first.found
     }
     /// Width (world units) of a pixel at the distance travelled.
-    pub(super) fn width(&self, spec: FilmSpec) -> f32 {
+    pub(crate) fn width(&self, spec: FilmSpec) -> f32 {
         self.spread.of_pixel(spec.pixels()).width_at(self.travelled)
     }
 }

@@ -1,6 +1,7 @@
 //! Light subpaths: what a pass knows of the light before the first camera ray.
 use super::{
     camera::Only,
+    chains::Chains,
     joins::Departed,
     mis::{Leg, Rule, Sums},
     techniques::{Merge, Technique},
@@ -42,6 +43,8 @@ pub(super) struct Shower<'w> {
     pub(super) spec: FilmSpec,
     /// Set to see one sampler alone.
     pub(super) only: Option<Only>,
+    /// Set if each path is only the beginning of a chain.
+    pub(super) chains: Option<&'w Chains>,
 }
 
 /// All light subpaths of a pass.
@@ -90,7 +93,28 @@ impl Shower<'_> {
     }
 
     fn trace(&self, path: u64, out: &mut Chunk) {
-        let mut sampler = Sampler::new(self.pass.seed, Domain::Light, self.pass.index, path);
+        let sampler = Sampler::new(self.pass.seed, Domain::Light, self.pass.index, path);
+        if let Some(chains) = self.chains {
+            let mut random = Sampler::new(self.pass.seed, Domain::Chain, self.pass.index, path);
+            chains.walk(&sampler, &mut random, out, |sampler, out| self.follow(sampler, out));
+        } else {
+            self.follow(&sampler, out);
+        }
+        out.vertices.end_path();
+    }
+
+    /// What one path leaves behind.
+    pub(super) fn path(&self, path: u64) -> Chunk {
+        let mut chunk = Chunk::default();
+        self.follow(&Sampler::new(self.pass.seed, Domain::Light, self.pass.index, path), &mut chunk);
+        chunk
+    }
+
+    /// Walks the path of these numbers.
+    ///
+    /// By reference: rustc 1.95 may hand out its caller's own value where a copy is passed on and changed.
+    fn follow(&self, sampler: &Sampler, out: &mut Chunk) {
+        let mut sampler = *sampler;
         out.counts.emitted += 1;
         if let Some(emission) = self.source.emit(self.world, &mut sampler) {
             // The last scattering belongs to the camera's side.
@@ -102,19 +126,34 @@ impl Shower<'_> {
             out.counts.rays += rays;
             out.counts.light_rays += rays;
         }
-        out.vertices.end_path();
     }
 }
 
+/// What some paths leave behind.
 #[derive(Default)]
-struct Chunk {
-    positions: Vec<Vec3>,
-    photons: Vec<Photon>,
+pub(super) struct Chunk {
+    pub(super) positions: Vec<Vec3>,
+    pub(super) photons: Vec<Photon>,
     vertices: Vertices,
     splats: Vec<Splat>,
     /// The same, when all are there.
     sorted: Splats,
-    counts: Counts,
+    pub(super) counts: Counts,
+}
+
+impl Chunk {
+    /// Forgets the photons and the counts; only such chunks are used again that have nothing else.
+    pub(super) fn clear(&mut self) {
+        self.positions.clear();
+        self.photons.clear();
+        self.counts = Counts::default();
+    }
+    /// Adds the photons of another, each worth `factor` times as much.
+    pub(super) fn take(&mut self, other: &Self, factor: f32) {
+        self.positions.extend_from_slice(&other.positions);
+        self.photons.extend(other.photons.iter().map(|p| Photon { flux: p.flux * factor, ..*p }));
+        self.counts += other.counts;
+    }
 }
 
 fn join(mut chunks: Vec<Chunk>, image: &mut PassImage) -> Subpaths {

@@ -10,6 +10,7 @@
 //!
 //! The named algorithms that run on it are settings of [`Engine`], one file each beside this folder.
 mod camera;
+mod chains;
 mod gather;
 mod joins;
 mod lamps;
@@ -38,6 +39,7 @@ use crate::{
     walk::{Limits, walk, walk_evenly},
 };
 use camera::{Eye, EyeStart, Look, Only};
+use chains::Chains;
 use glam::Vec2;
 use lamps::{Lamps, is_small};
 use light::{Shower, Subpaths};
@@ -71,6 +73,8 @@ pub struct Engine {
     pub heuristic: Heuristic,
     /// Whether light paths are sent to where the camera needs them, if a training finds that it helps.
     pub aim: bool,
+    /// Whether light paths that gathers reach are sought by Markov chains; only where light paths serve gathers alone.
+    pub chains: bool,
     /// Whether a training decides, for each part of the picture, what is merged there.
     pub planned: bool,
 }
@@ -83,7 +87,7 @@ const FITTING_SHARE: u64 = 3;
 const PATHS: std::ops::RangeInclusive<u64> = 1 << 14..=1 << 21;
 
 /// What every algorithm on the engine can be told.
-pub(super) const PARAMS: [ParamInfo; 9] = [
+pub(super) const PARAMS: [ParamInfo; 10] = [
     ParamInfo { name: "photons", about: "light paths a pass, 1 to 1e9 (default: by the size of the picture)" },
     ParamInfo { name: "radius", about: "first radius, world units > 0 (default: from what pixels cover)" },
     ParamInfo { name: "radius-scale", about: "first radius over that, 1e-6 to 1e6 (default 1)" },
@@ -100,6 +104,10 @@ pub(super) const PARAMS: [ParamInfo; 9] = [
     ParamInfo {
         name: "aim",
         about: "send light to where the camera needs it: on or off (default on where photons are gathered)",
+    },
+    ParamInfo {
+        name: "chains",
+        about: "look for light paths near those that gathers reach, by Markov chains: on or off (default off; ppm and unified)",
     },
     ParamInfo { name: "heuristic", about: "what weights compare: balance or power (default balance)" },
 ];
@@ -119,6 +127,7 @@ impl Engine {
             memory: 2_000_000_000,
             heuristic: Heuristic::default(),
             aim: on.merge.is_on(),
+            chains: false,
             planned: false,
         }
     }
@@ -129,6 +138,11 @@ impl Engine {
         let radius = p.number("radius", 0.0, f64::from(f32::MIN_POSITIVE)..=1e30)? as f32;
         // Whoever names a radius means it.
         let fit = if radius > 0.0 { Fit::Off } else { d.fit };
+        let chains = p.switch("chains", d.chains)?;
+        if chains && !d.on.lights_serve_gathers_alone() {
+            let expected = "off, which it must be where light paths do more than gathers".into();
+            return Err(ParamError::Value { name: "chains", value: "on".into(), expected });
+        }
         Ok(Self {
             limits: p.limits()?,
             paths: (paths > 0).then_some(paths),
@@ -139,6 +153,7 @@ impl Engine {
             kernel: Kernel::ALL[p.word("kernel", d.kernel as usize, &Kernel::WORDS)?],
             memory: p.count("memory", d.memory, 1_000_000..=1_000_000_000_000_000)?,
             aim: p.switch("aim", d.aim)?,
+            chains,
             heuristic: Heuristic::ALL[p.word("heuristic", d.heuristic as usize, &Heuristic::WORDS)?],
             ..d
         })
@@ -171,6 +186,7 @@ impl Integrator for Engine {
             parts: 1,
             same_place: std::f32::consts::PI * degree * degree,
             plan: None,
+            chains: None,
         };
         if self.planned && scene.is_matt() && Plan::needs_no_photons(&mut prepared, spec, seed) {
             return Box::new(prepared);
@@ -182,6 +198,9 @@ impl Integrator for Engine {
         } else if let Some(fitted) = fitted {
             let after = After::new(bandwidth::PASSES, self.schedule);
             prepared.radii = fitted.by(|tile, _| fitted.best(0, tile, after));
+        }
+        if self.chains && prepared.paths > 0 {
+            prepared.link(spec, seed);
         }
         prepared.parts = prepared.count_parts(spec, seed);
         Box::new(prepared)
@@ -232,6 +251,8 @@ struct Prepared<'s> {
     parts: u64,
     same_place: f32,
     plan: Option<Plan>,
+    /// Each of `paths` begins a chain.
+    chains: Option<Chains>,
 }
 
 impl PassRenderer for Prepared<'_> {
@@ -309,7 +330,8 @@ impl Prepared<'_> {
     }
 
     fn rule(&self, paths: u64) -> Rule {
-        Rule { on: self.engine.on, heuristic: self.engine.heuristic, paths: paths as f32, same_place: self.same_place }
+        let paths = paths as f32 * self.chains.as_ref().map_or(1.0, |c| c.length as f32);
+        Rule { on: self.engine.on, heuristic: self.engine.heuristic, paths, same_place: self.same_place }
     }
 
     fn render(&self, job: &Job, image: &mut PassImage) {
@@ -360,7 +382,11 @@ impl Prepared<'_> {
     }
 
     fn walk_light(&self, job: &Job, world: &World, rule: Rule, shrink: f32, image: &mut PassImage) -> Subpaths {
-        let shower = Shower {
+        self.shower(job, world, rule, shrink, image.spec()).walk(image)
+    }
+
+    fn shower<'w>(&'w self, job: &'w Job, world: &'w World<'w>, rule: Rule, shrink: f32, spec: FilmSpec) -> Shower<'w> {
+        Shower {
             world,
             rule,
             keep: job.plan.map_or(rule.on.merge, Plan::needs),
@@ -371,9 +397,9 @@ impl Prepared<'_> {
             pass: &job.pass,
             paths: job.paths.clone(),
             share: job.share,
-            spec: image.spec(),
+            spec,
             only: job.only,
-        };
-        shower.walk(image)
+            chains: self.chains.as_ref(),
+        }
     }
 }

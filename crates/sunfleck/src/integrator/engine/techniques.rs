@@ -80,6 +80,10 @@ impl Techniques {
             Technique::Merge => self.merge.is_on(),
         }
     }
+    /// Whether light paths leave photons for gathers and nothing else.
+    pub fn lights_serve_gathers_alone(&self) -> bool {
+        self.merge.is_on() && !self.light_image && !self.connect
+    }
     /// Whether light paths are needed.
     pub fn need_light_paths(&self) -> bool {
         self.light_image || self.connect || self.merge.is_on()
