@@ -70,7 +70,8 @@ impl Files {
     /// # Errors
     /// It is missing or cannot be read, or lies outside of the scene's folder.
     pub(crate) fn include(&self, path: &Path, target: &mut Target) -> Result<Rc<SourceFile>, Box<Diagnostic>> {
-        if !self.allow_outside && self.leaves(path) {
+        let linked = text_link(path);
+        if !self.allow_outside && (self.leaves(path) || linked.is_some_and(|linked| self.leaves(&linked))) {
             let message = format!("{} lies outside of the scene's folder", path.display());
             let error = Diagnostic::error("file::outside", message);
             return Err(Box::new(error.help("if the scene is to be trusted, allow it with --allow-outside")));

@@ -3,7 +3,7 @@ use glam::{Affine3A, Vec2, Vec3, Vec4};
 use sunfleck::{
     bsdf::{
         Bsdf, BumpMapMaterial, COVERINGS, DiffuseMaterial, MaskMaterial, Material, MirrorMaterial, MixMaterial,
-        NormalMapMaterial, NullMaterial, Scalar, TwoSidedMaterial,
+        NormalMapMaterial, NullMaterial, Scalar, TurnedMaterial, TwoSidedMaterial,
     },
     camera::{Perspective, View},
     film::{FilmSpec, Filter, PassImage},
@@ -198,6 +198,35 @@ fn normals_of_a_picture_lean_where_the_texture_coordinates_grow() {
     }
 }
 
+#[test]
+fn brushing_turns_with_its_angle_its_picture_and_its_place() {
+    let tangent = |place: Affine3A, angle: f32, drawn: Option<Vec3>| {
+        let mut b = SceneBuilder::new();
+        let of = matt(&mut b, 0.5);
+        let direction = drawn.map(|d| b.constant(0.5 * d + 0.5));
+        let material = b.material(TurnedMaterial { of, angle, direction });
+        let object = b.object(vec![SurfaceDef { shape: square(), material, emission: None }]);
+        b.place(object, place);
+        let scene = build(b);
+        let ray = Ray::new(Vec3::new(0.1, 0.2, 5.0), Vec3::NEG_Z);
+        scene.world(Wavelengths::Rgb, 0.5).intersect(&ray).unwrap().frame.s
+    };
+    let (flat, turn) = (Affine3A::IDENTITY, Affine3A::from_rotation_z(0.8));
+    let mirror = Affine3A::from_scale(Vec3::new(-1.0, 1.0, 1.0));
+    let at = |angle: f32| Vec3::new(angle.cos(), angle.sin(), 0.0);
+    for (place, angle, drawn, want) in [
+        (flat, 0.0, None, Vec3::X),
+        (flat, 0.5, None, at(0.5)),
+        (turn, 0.5, None, at(1.3)),
+        (mirror, 0.5, None, at(0.5) * Vec3::new(-1.0, 1.0, 1.0)),
+        (flat, 0.0, Some(Vec3::Y), Vec3::Y),
+        (flat, 0.5, Some(at(0.25)), at(0.75)),
+    ] {
+        let got = tangent(place, angle, drawn);
+        assert!((got - want).length() < 1e-5, "{angle} and {drawn:?} under {place}: {got} but {want}");
+    }
+}
+
 /// A triangle around the origin in the plane z = 0 with these texture coordinates.
 fn triangle(uvs: [Vec2; 3]) -> Mesh {
     let positions = vec![Vec3::new(-2.0, -2.0, 0.0), Vec3::new(3.0, -2.0, 0.0), Vec3::new(-2.0, 3.0, 0.0)];
@@ -261,7 +290,7 @@ fn attributes_are_as_many_as_vertices_and_materials_lie_over_earlier_ones() {
 fn every_covering_is_listed_once() {
     let mut names: Vec<_> = COVERINGS.iter().map(|c| c.name).collect();
     names.dedup();
-    assert_eq!(names, ["mix", "mask", "null", "twosided", "normalmap", "bumpmap"]);
+    assert_eq!(names, ["mix", "mask", "null", "twosided", "normalmap", "bumpmap", "turned"]);
 }
 
 /// Mean of the picture over 64 passes.

@@ -50,7 +50,8 @@ fn check_header(bytes: &[u8]) -> Result<(u32, u32), String> {
     if levels > MAX_LEVELS {
         return Err(format!("it is said to have {levels} levels"));
     }
-    check_size(width.into(), height.into(), 4 * u64::from(width) * u64::from(height), bytes.len())?;
+    let unpacked = u64::from(width).saturating_mul(height.into()).saturating_mul(4);
+    check_size(width.into(), height.into(), unpacked, bytes.len())?;
     for level in 0..levels.max(1) {
         let unpacked = u64_at(LEVELS + 24 * level + 16).ok_or(short)?;
         check_size(width.into(), height.into(), unpacked, bytes.len())?;

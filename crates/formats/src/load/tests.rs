@@ -216,7 +216,8 @@ fn mtl_materials_become_models() {
         ("illum 2\nNi 1.5", "diffuse"),
         ("Tr 0.5\nillum 4", "dielectric"),
         ("d 0.5\nNi 1", "diffuse"),
-        ("Kd 0.5\nPr 0.3\nPm 1", "cooktorrance"),
+        ("Kd 0.5\nPr 0.3\nPm 1", "principled"),
+        ("Kd 0.5\nPc 1", "principled"),
     ];
     for (statements, model) in cases {
         let mtl = format!("newmtl A\n{statements}\n");
@@ -267,7 +268,7 @@ fn mtl_pictures_of_normals_holes_and_roughness_are_data() {
     };
     let (all, codes) = read("map_Pr d.png\nPm 1\nmap_Bump -bm 0.5 n.png\nmap_d d.png");
     assert!(codes.is_empty(), "{codes:?}");
-    assert!(all.contains("roughness: 0.737") && all.contains("metallic: 1.0"), "{all}");
+    assert!(all.contains("roughness: Roughness { u: Texture(") && all.contains("metallic: Constant(1.0)"), "{all}");
     assert!(all.contains("NormalMapMaterial") && all.contains("MaskMaterial"), "{all}");
     assert!(all.contains("Vec3(0.73725"), "{all}");
     assert!(read("Tr 1").1 == ["mtl::opacity"], "a thing that cannot be seen is a mistake");
@@ -275,6 +276,45 @@ fn mtl_pictures_of_normals_holes_and_roughness_are_data() {
     assert!(codes.is_empty() && half.contains("MaskMaterial") && half.contains("Constant(0.5)"), "{half}");
     let (_, codes) = read("bump h.png");
     assert_eq!(codes, ["mtl::heights"]);
+}
+
+#[test]
+fn the_extension_of_mtl_is_the_principled_model() {
+    use sunfleck::bsdf::{Covering, Material, Scalar};
+    let mtl = "newmtl A\nKd 0.5\nNi 1.4\nPr 0.36\nPm 0.25\nPc 0.5\nPcr 0.1\nPs 0.2\naniso 0.5\nanisor 0.25\n";
+    let obj = "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl A\nf 1 2 3\n";
+    let scene = scene(load_files(&[("c.mtl", mtl), ("c.obj", obj)], &LoadOptions::default()).1.unwrap());
+    let [Material::Principled(m), Material::Covering(Covering::Turned(turned))] = &scene.materials()[..2] else {
+        panic!("{:?}", scene.materials())
+    };
+    let constants = [m.metallic, m.ior, m.coat, m.coat_roughness];
+    assert_eq!(constants, [0.25, 1.4, 0.5, 0.1].map(Scalar::Constant));
+    let (Scalar::Constant(u), Scalar::Constant(v)) = (m.roughness.u, m.roughness.v) else { panic!("pictures") };
+    // Slopes are squares; Burley's aspect is the root of 1 − 0.9 · 0.5.
+    assert!((u * v - 0.36 * 0.36).abs() < 1e-5 && ((v * v) / (u * u) - 0.55).abs() < 1e-5, "{u} {v}");
+    assert!(m.sheen.is_some() && (turned.angle - std::f32::consts::FRAC_PI_2).abs() < 1e-6);
+}
+
+#[test]
+fn faces_shine_by_the_picture_that_mtl_names() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut picture = crate::image::RgbImage32::filled(1, 2, [0.0; 3]);
+    picture.data[0] = [1.0, 0.0, 0.0];
+    crate::image::write_image(&folder.path().join("e.png"), &picture.into(), Tone::Srgb).unwrap();
+    std::fs::write(folder.path().join("c.mtl"), "newmtl A\nKe 4 4 4\nmap_Ke e.png\n").unwrap();
+    let obj = "mtllib c.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n\
+               usemtl A\nf 1/1 2/2 3/3 4/4\n";
+    std::fs::write(folder.path().join("c.obj"), obj).unwrap();
+    let loaded = load(&[folder.path().join("c.obj")], &LoadOptions::default()).unwrap();
+    let mut sums = (0.0, 0.0);
+    for s in loaded.builder.parts().surfaces {
+        let red = s.emission.as_ref().map_or(0.0, |(radiance, _)| radiance.rgb().x) * s.shape.area();
+        let sunfleck::shape::Shape::Mesh(mesh) = &s.shape else { panic!("no mesh") };
+        sums.0 += red;
+        sums.1 += red * mesh.positions().iter().map(|p| p.y).sum::<f32>() / mesh.positions().len() as f32;
+    }
+    // Repeated, the picture is 1 − y within a quarter of its edges: on the mean half of 4, and bright where v is large.
+    assert!((sums.0 - 2.0).abs() < 0.1 && sums.1 / sums.0 > 0.55, "{sums:?}");
 }
 
 /// Numbers that break arithmetic.

@@ -7,9 +7,10 @@ use crate::load::Target;
 use glam::Vec3;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::rc::Rc;
 use sunfleck::bsdf::{
-    CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, MaskMaterial, Material, MirrorMaterial,
-    NormalMapMaterial, PhongMaterial, Scalar,
+    DielectricMaterial, DiffuseMaterial, MaskMaterial, Material, MirrorMaterial, NormalMapMaterial, PhongMaterial,
+    Scalar,
 };
 use sunfleck::scene::{MaterialId, TextureId};
 use sunfleck::texture::{ImageTexture, Texture, Wrap};
@@ -23,12 +24,26 @@ const REFRACTING: [u32; 4] = [4, 6, 7, 9];
 /// Models of illumination with mirror reflection.
 const REFLECTING: [u32; 3] = [3, 5, 8];
 
+/// Where a file names a material.
+pub(super) type Place<'s> = (&'s SourceFile, Span);
+
+/// What faces send out, to their outer side.
+#[derive(Clone)]
+pub(super) enum Glow {
+    /// Nothing.
+    Nothing,
+    /// The same radiance everywhere.
+    Even(Vec3),
+    /// The radiance that a picture shows.
+    Picture(Rc<ImageTexture>),
+}
+
 /// Makes each material once.
 pub(super) struct Appearances<'t> {
     tree: &'t ObjFile,
     by_name: HashMap<&'t str, &'t MtlMaterial>,
     folder: &'t Path,
-    made: HashMap<Option<usize>, (MaterialId, Option<Vec3>)>,
+    made: HashMap<Option<usize>, (MaterialId, Glow)>,
     pictures: HashMap<(PathBuf, [u32; 3], Role), Option<Picture>>,
 }
 
@@ -40,20 +55,15 @@ impl<'t> Appearances<'t> {
     }
 
     /// The material of that index into the file's names, and the radiance it emits, if any.
-    pub(super) fn of(
-        &mut self,
-        index: Option<usize>,
-        source: &SourceFile,
-        target: &mut Target,
-    ) -> (MaterialId, Option<Vec3>) {
+    pub(super) fn of(&mut self, index: Option<usize>, source: &SourceFile, target: &mut Target) -> (MaterialId, Glow) {
         if let Some(made) = self.made.get(&index) {
-            return *made;
+            return made.clone();
         }
         let named = index.map(|i| &self.tree.material_names[i]);
         let definition = named.and_then(|(name, _)| self.by_name.get(name.as_str()).copied());
         let made = if let (Some(mtl), Some((_, span))) = (definition, named) {
             let model = self.model(mtl, (source, *span), target);
-            let emission = mtl.emission.map(|e| Vec3::from_array(e).max(Vec3::ZERO));
+            let emission = self.emission(mtl, (source, *span), target);
             let bare = target.builder().material(model);
             let id = self.covered(mtl, bare, (source, *span), target);
             if let Some((name, _)) = named {
@@ -62,13 +72,25 @@ impl<'t> Appearances<'t> {
             (id, emission)
         } else {
             let reflectance = target.builder().constant(DEFAULT_GREY);
-            (target.builder().material(DiffuseMaterial { reflectance }), None)
+            (target.builder().material(DiffuseMaterial { reflectance }), Glow::Nothing)
         };
-        self.made.insert(index, made);
+        self.made.insert(index, made.clone());
         made
     }
 
-    fn model(&mut self, mtl: &MtlMaterial, place: (&SourceFile, Span), target: &mut Target) -> Material {
+    /// `Ke`, or the picture that `map_Ke` names times `Ke` (a black one does not count).
+    fn emission(&self, mtl: &MtlMaterial, place: Place, target: &mut Target) -> Glow {
+        let ke = mtl.emission.map_or(Vec3::ZERO, Vec3::from_array).max(Vec3::ZERO);
+        let scale = if ke == Vec3::ZERO { Vec3::ONE } else { ke };
+        let path = mtl.emission_map.as_ref().map(|name| self.folder.join(name));
+        match path.and_then(|path| read_texture(&path, scale, Role::Light, place, target)) {
+            Some(picture) => Glow::Picture(Rc::new(picture)),
+            None if ke == Vec3::ZERO => Glow::Nothing,
+            None => Glow::Even(ke),
+        }
+    }
+
+    fn model(&mut self, mtl: &MtlMaterial, place: Place, target: &mut Target) -> Material {
         let kd = reflectance(mtl.diffuse, DEFAULT_GREY);
         let ks = reflectance(mtl.specular, Vec3::ZERO);
         let model = mtl.model.unwrap_or(2);
@@ -78,16 +100,8 @@ impl<'t> Appearances<'t> {
             return DielectricMaterial { eta: eta.into(), reflectance: white, transmittance: tint }.into();
         }
         let diffuse = self.diffuse(mtl, kd, place, target);
-        let mut unit = |file: &Option<String>, factor: Option<f32>, default: f32| {
-            let picture = file.as_ref().and_then(|name| self.picture(name, Vec3::ONE, Role::Data, place, target));
-            picture.map_or(factor.unwrap_or(default), |p| p.mean.x * factor.unwrap_or(1.0)).clamp(0.0, 1.0)
-        };
-        let is_physical = mtl.roughness.is_some() || mtl.metallic.is_some() || mtl.roughness_map.is_some();
-        if is_physical || mtl.metallic_map.is_some() {
-            let roughness = unit(&mtl.roughness_map, mtl.roughness, 0.5);
-            let metallic = unit(&mtl.metallic_map, mtl.metallic, 0.0);
-            let f0 = target.builder().constant(Vec3::splat(0.04));
-            return CookTorranceMaterial { albedo: diffuse, f0, roughness, metallic }.into();
+        if mtl.is_physical() {
+            return self.physical(mtl, diffuse, place, target).into();
         }
         if REFLECTING.contains(&model) && ks != Vec3::ZERO && kd == Vec3::ZERO && mtl.diffuse_map.is_none() {
             return MirrorMaterial { reflect: target.builder().constant(ks) }.into();
@@ -101,7 +115,7 @@ impl<'t> Appearances<'t> {
     }
 
     /// `Kd`, or the picture that `map_Kd` names times `Kd` (a black one does not count).
-    fn diffuse(&mut self, mtl: &MtlMaterial, kd: Vec3, place: (&SourceFile, Span), target: &mut Target) -> TextureId {
+    fn diffuse(&mut self, mtl: &MtlMaterial, kd: Vec3, place: Place, target: &mut Target) -> TextureId {
         let scale = if mtl.diffuse.is_none() || kd == Vec3::ZERO { Vec3::ONE } else { kd };
         let name = mtl.diffuse_map.as_ref();
         let picture = name.and_then(|name| self.picture(name, scale, Role::Colour, place, target));
@@ -109,14 +123,8 @@ impl<'t> Appearances<'t> {
     }
 
     /// A material with its normals and its holes. What is glass has none of these.
-    fn covered(
-        &mut self,
-        mtl: &MtlMaterial,
-        of: MaterialId,
-        place: (&SourceFile, Span),
-        target: &mut Target,
-    ) -> MaterialId {
-        let mut id = of;
+    fn covered(&mut self, mtl: &MtlMaterial, of: MaterialId, place: Place, target: &mut Target) -> MaterialId {
+        let mut id = if mtl.is_physical() { Self::turned(mtl, of, target) } else { of };
         let mut data = |name: &Option<String>, target: &mut Target| {
             name.as_ref().and_then(|name| self.picture(name, Vec3::ONE, Role::Data, place, target))
         };
@@ -153,12 +161,12 @@ impl<'t> Appearances<'t> {
     }
 
     /// A picture times `scale`; a warning if it cannot be read.
-    fn picture(
+    pub(super) fn picture(
         &mut self,
         name: &str,
         scale: Vec3,
         role: Role,
-        place: (&SourceFile, Span),
+        place: Place,
         target: &mut Target,
     ) -> Option<Picture> {
         let path = self.folder.join(name);
@@ -169,28 +177,30 @@ impl<'t> Appearances<'t> {
 
 /// What the numbers of a picture are.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
-enum Role {
-    /// Colours.
+pub(super) enum Role {
+    /// Colours of matter.
     Colour,
+    /// Radiance, which may be above 1.
+    Light,
     /// Numbers as they are.
     Data,
 }
 
 /// A picture, and its mean.
 #[derive(Clone, Copy)]
-struct Picture {
-    id: TextureId,
+pub(super) struct Picture {
+    pub(super) id: TextureId,
     mean: Vec3,
 }
 
 /// Reads a texture; a warning if that fails.
-fn read_picture(
-    path: &Path,
-    scale: Vec3,
-    role: Role,
-    place: (&SourceFile, Span),
-    target: &mut Target,
-) -> Option<Picture> {
+fn read_picture(path: &Path, scale: Vec3, role: Role, place: Place, target: &mut Target) -> Option<Picture> {
+    let texture = read_texture(path, scale, role, place, target)?;
+    let mean = texture.mean();
+    Some(Picture { id: target.builder().texture(Texture::Image(texture)), mean })
+}
+
+fn read_texture(path: &Path, scale: Vec3, role: Role, place: Place, target: &mut Target) -> Option<ImageTexture> {
     let read = crate::diagnostic::read_bytes(path).and_then(|bytes| {
         let picture = read_image_bytes(&path.display().to_string(), &bytes)?;
         target.input(&bytes);
@@ -198,10 +208,9 @@ fn read_picture(
     });
     match read {
         Ok(image) => {
-            let pixels = image.data.iter().map(|p| Vec3::from_array(*p).clamp(Vec3::ZERO, Vec3::ONE) * scale).collect();
-            let texture = ImageTexture::new(image.width as usize, image.height as usize, pixels, Wrap::Repeat)?;
-            let mean = texture.mean();
-            Some(Picture { id: target.builder().texture(Texture::Image(texture)), mean })
+            let most = Vec3::splat(if role == Role::Light { f32::MAX } else { 1.0 });
+            let pixels = image.data.iter().map(|p| Vec3::from_array(*p).clamp(Vec3::ZERO, most) * scale).collect();
+            ImageTexture::new(image.width as usize, image.height as usize, pixels, Wrap::Repeat)
         }
         Err(error) => {
             target.sink.warn("mtl::texture", || {

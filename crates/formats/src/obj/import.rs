@@ -1,6 +1,6 @@
 //! From the tree of an `.obj` file to meshes of a scene.
 
-use super::appearance::Appearances;
+use super::appearance::{Appearances, Glow};
 use super::{Corner, ObjFile, ObjMesh, parse, read_libraries};
 use crate::diagnostic::{Diagnostic, Error, Sink, SourceFile};
 use crate::load::{LoadOptions, SceneFormat, Target};
@@ -9,7 +9,9 @@ use glam::{Vec2, Vec3};
 use std::collections::HashMap;
 use std::path::Path;
 use sunfleck::light::Sides;
+use sunfleck::scene::MaterialId;
 use sunfleck::shape::{Mesh, Shape};
+use sunfleck::texture::ImageTexture;
 
 /// The entry in the list of scene formats.
 pub(crate) const FORMAT: SceneFormat = SceneFormat {
@@ -41,15 +43,40 @@ fn load(path: &Path, _: &LoadOptions, target: &mut Target) -> Result<(), Error> 
 fn import(tree: &ObjFile, source: &SourceFile, folder: &Path, target: &mut Target) {
     let mut appearances = Appearances::new(tree, folder);
     for mesh in &tree.meshes {
-        let (material, emission) = appearances.of(mesh.material, source, target);
-        if let Some(shape) = shape(tree, mesh, source, &mut target.sink) {
-            target.surface(shape, material, emission.map(|e| (e.into(), Sides::One)));
+        let (material, glow) = appearances.of(mesh.material, source, target);
+        let Some(vertices) = vertices(tree, mesh, source, &mut target.sink) else { continue };
+        let emission = match glow {
+            Glow::Nothing => None,
+            Glow::Even(radiance) => Some((radiance.into(), Sides::One)),
+            Glow::Picture(picture) => {
+                shine(vertices.into_mesh(), &picture, material, source, target);
+                continue;
+            }
+        };
+        if let Some(shape) = vertices.into_shape() {
+            target.surface(shape, material, emission);
         }
     }
 }
 
+/// Adds a mesh in pieces that each send out what the picture shows there.
+fn shine(mesh: PlyMesh, picture: &ImageTexture, material: MaterialId, source: &SourceFile, target: &mut Target) {
+    for (radiance, piece) in crate::gltf::pieces(upended(mesh), picture) {
+        let emission = (radiance != Vec3::ZERO).then(|| (radiance.into(), Sides::One));
+        if let Some(shape) = crate::ply::shape(&upended(piece), source.name(), &mut target.sink) {
+            target.surface(shape, material, emission);
+        }
+    }
+}
+
+/// With texture coordinates from the top instead of from the bottom, or the other way round.
+fn upended(mut mesh: PlyMesh) -> PlyMesh {
+    mesh.uvs.iter_mut().for_each(|uv| uv[1] = 1.0 - uv[1]);
+    mesh
+}
+
 /// The mesh with one index per corner; `None` if all its triangles are without area.
-fn shape(tree: &ObjFile, mesh: &ObjMesh, source: &SourceFile, sink: &mut Sink) -> Option<Shape> {
+fn vertices<'t>(tree: &'t ObjFile, mesh: &ObjMesh, source: &SourceFile, sink: &mut Sink) -> Option<Vertices<'t>> {
     let mut vertices = Vertices::new(tree, mesh);
     let point = |c: &Corner| Vec3::from_array(tree.positions[c.position as usize]);
     let mut flat = 0_usize;
@@ -70,7 +97,7 @@ fn shape(tree: &ObjFile, mesh: &ObjMesh, source: &SourceFile, sink: &mut Sink) -
             Diagnostic::warning("obj::flat-triangles", message).in_file(source.name()).help("they are left out")
         });
     }
-    vertices.into_shape()
+    (!vertices.triangles.is_empty()).then_some(vertices)
 }
 
 /// All faces of a file as one mesh, whatever their materials.
@@ -84,15 +111,7 @@ pub(crate) fn merged(tree: &ObjFile) -> PlyMesh {
         let indices = triangle.map(|corner| vertices.index(corner, normal));
         vertices.triangles.push(indices);
     }
-    let Vertices { positions, normals, uvs, triangles, .. } = vertices;
-    PlyMesh {
-        positions: positions.iter().map(Vec3::to_array).collect(),
-        normals: normals.iter().map(Vec3::to_array).collect(),
-        uvs: uvs.iter().map(Vec2::to_array).collect(),
-        triangles,
-        bad_faces: 0,
-        ..PlyMesh::default()
-    }
+    vertices.into_mesh()
 }
 
 /// Corners of a mesh, made unique.
@@ -148,10 +167,17 @@ impl<'t> Vertices<'t> {
         }
     }
 
-    fn into_shape(self) -> Option<Shape> {
-        if self.triangles.is_empty() {
-            return None;
+    fn into_mesh(self) -> PlyMesh {
+        PlyMesh {
+            positions: self.positions.iter().map(Vec3::to_array).collect(),
+            normals: self.normals.iter().map(Vec3::to_array).collect(),
+            uvs: self.uvs.iter().map(Vec2::to_array).collect(),
+            triangles: self.triangles,
+            ..PlyMesh::default()
         }
+    }
+
+    fn into_shape(self) -> Option<Shape> {
         Mesh::new(self.positions, self.normals, self.uvs, self.triangles).ok().map(Shape::Mesh)
     }
 }

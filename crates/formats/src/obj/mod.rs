@@ -11,6 +11,7 @@ mod import;
 mod libraries;
 mod mtl;
 mod parser;
+mod physical;
 #[cfg(test)]
 mod tests;
 mod tree;

@@ -28,31 +28,43 @@ pub struct MtlMaterial {
     pub roughness: Option<f32>,
     /// `Pm`: metallic (the same extension).
     pub metallic: Option<f32>,
+    /// `Pc`: clear coat (the same extension, as the next ones).
+    pub coat: Option<f32>,
+    /// `Pcr`: roughness of the clear coat.
+    pub coat_roughness: Option<f32>,
+    /// `Ps`: sheen.
+    pub sheen: Option<f32>,
+    /// `aniso`: anisotropy.
+    pub anisotropy: Option<f32>,
+    /// `anisor`: its rotation in turns.
+    pub anisotropy_rotation: Option<f32>,
     /// `map_Kd`: picture of the diffuse reflectance, as written but with `/` between folders.
     pub diffuse_map: Option<String>,
     /// `map_Pr`: picture of the roughness.
     pub roughness_map: Option<String>,
     /// `map_Pm`: picture of the metalness.
     pub metallic_map: Option<String>,
+    /// `map_Ps`: picture of the sheen.
+    pub sheen_map: Option<String>,
+    /// `map_Ke`: picture of the emitted radiance.
+    pub emission_map: Option<String>,
     /// `map_d`: picture of the opacity.
     pub opacity_map: Option<String>,
     /// `norm`, or a picture of normals where heights are expected, as many programs write it.
     pub normal_map: Option<String>,
 }
 
-const KEYWORDS: [&str; 18] = [
-    "newmtl", "Ka", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "Pr", "Pm", "map_Pr", "map_Pm",
-    "map_d", "norm",
+const KEYWORDS: [&str; 25] = [
+    "newmtl", "Ka", "Kd", "Ks", "Ke", "Tf", "Ns", "Ni", "d", "Tr", "illum", "map_Kd", "Pr", "Pm", "Pc", "Pcr", "Ps",
+    "aniso", "anisor", "map_Pr", "map_Pm", "map_Ps", "map_Ke", "map_d", "norm",
 ];
 
 /// Statements that have no meaning for sunfleck.
 const SILENT: [&str; 5] = ["ka", "map_ka", "sharpness", "map_aat", "tr_filter"];
 
 /// Statements whose effect is left out.
-const UNSUPPORTED: [&str; 17] = [
-    "map_ks", "map_ns", "map_ke", "disp", "decal", "refl", "map_refl", "map_disp", "map_ps", "map_tr", "map_tf",
-    "map_ni", "ps", "pc", "pcr", "aniso", "anisor",
-];
+const UNSUPPORTED: [&str; 10] =
+    ["map_ks", "map_ns", "disp", "decal", "refl", "map_refl", "map_disp", "map_tr", "map_tf", "map_ni"];
 
 impl MtlMaterial {
     fn set_picture(&mut self, key: &str, file: Option<String>) {
@@ -60,6 +72,8 @@ impl MtlMaterial {
             "map_kd" => self.diffuse_map = file,
             "map_pr" => self.roughness_map = file,
             "map_pm" => self.metallic_map = file,
+            "map_ps" => self.sheen_map = file,
+            "map_ke" => self.emission_map = file,
             "map_d" => self.opacity_map = file,
             // What is called by its name wins.
             "norm" | "map_norm" => self.normal_map = file.or(self.normal_map.take()),
@@ -106,8 +120,11 @@ impl Parser<'_> {
         let key = keyword.as_str();
         match key {
             "kd" | "ks" | "ke" | "tf" => self.colour(key, line, word),
-            "ns" | "ni" | "d" | "tr" | "illum" | "pr" | "pm" => self.number(key, line, word),
-            "map_kd" | "map_pr" | "map_pm" | "map_d" | "norm" | "map_norm" | "map_bump" | "bump" => {
+            "ns" | "ni" | "d" | "tr" | "illum" | "pr" | "pm" | "pc" | "pcr" | "ps" | "aniso" | "anisor" => {
+                self.number(key, line, word);
+            }
+            "map_kd" | "map_ke" | "map_pr" | "map_pm" | "map_ps" | "map_d" | "norm" | "map_norm" | "map_bump"
+            | "bump" => {
                 let file = picture_name(&source.text(line.rest()));
                 if let Some(m) = self.materials.last_mut() {
                     m.set_picture(key, file);
@@ -174,6 +191,11 @@ impl Parser<'_> {
             "tr" => m.opacity = m.opacity.or(Some(1.0 - value)),
             "pr" => m.roughness = Some(value),
             "pm" => m.metallic = Some(value),
+            "pc" => m.coat = Some(value),
+            "pcr" => m.coat_roughness = Some(value),
+            "ps" => m.sheen = Some(value),
+            "aniso" => m.anisotropy = Some(value),
+            "anisor" => m.anisotropy_rotation = Some(value),
             _ => m.model = Some(value.max(0.0) as u32),
         }
     }

@@ -6,15 +6,25 @@ use super::state::Cover;
 use glam::Vec3;
 use sunfleck::bsdf::{
     BumpMapMaterial, CookTorranceMaterial, MaskMaterial, Material, NRendererPhongMaterial, NormalMapMaterial,
-    PhongMaterial, PlasticMaterial, PrincipledMaterial, Roughness, Scalar, TwoSidedMaterial,
+    PhongMaterial, PlasticMaterial, PrincipledMaterial, Roughness, Scalar, TurnedMaterial, TwoSidedMaterial,
 };
 use sunfleck::scene::MaterialId;
 
 /// What our own models begin with.
 pub(super) const PREFIX: &str = "sunfleck-";
 
-const MODELS: [&str; 9] =
-    ["bumpmap", "cooktorrance", "mask", "normalmap", "nrenderer-phong", "phong", "plastic", "principled", "twosided"];
+const MODELS: [&str; 10] = [
+    "bumpmap",
+    "cooktorrance",
+    "mask",
+    "normalmap",
+    "nrenderer-phong",
+    "phong",
+    "plastic",
+    "principled",
+    "turned",
+    "twosided",
+];
 
 impl Importer<'_> {
     /// A model of ours, `name` without its beginning.
@@ -88,6 +98,12 @@ impl Importer<'_> {
                 let (of, scale) = (self.part(params, "of")?, params.number("scale", 1.0)? as f32);
                 NormalMapMaterial { of, map: self.spectrum(params, &["normals"], Vec3::new(0.5, 0.5, 1.0))?, scale }
                     .into()
+            }
+            "turned" => {
+                let (of, angle) = (self.part(params, "of")?, params.number("angle", 0.0)? as f32);
+                let is_drawn = params.get("direction").is_some();
+                let direction = is_drawn.then(|| self.spectrum(params, &["direction"], Vec3::ONE)).transpose()?;
+                TurnedMaterial { of, angle, direction }.into()
             }
             "bumpmap" => {
                 let (of, scale) = (self.part(params, "of")?, params.number("scale", 1.0)? as f32);

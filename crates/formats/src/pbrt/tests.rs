@@ -234,6 +234,12 @@ fn included_mistakes_name_the_included_file_and_outside_is_closed() {
     std::fs::write(&main, "Include \"../secret\"\n").unwrap();
     let error = load(std::slice::from_ref(&main), &LoadOptions::default()).unwrap_err();
     assert_eq!(error.errors[0].code, "file::outside");
+    assert!(load(std::slice::from_ref(&main), &LoadOptions { allow_outside: true, ..LoadOptions::default() }).is_ok());
+    // A link that was stored as text, as Git does where it cannot make one.
+    std::fs::write(inner.join("link"), "../secret").unwrap();
+    std::fs::write(&main, "Include \"link\"\n").unwrap();
+    let error = load(std::slice::from_ref(&main), &LoadOptions::default()).unwrap_err();
+    assert_eq!(error.errors[0].code, "file::outside");
     assert!(load(&[main], &LoadOptions { allow_outside: true, ..LoadOptions::default() }).is_ok());
 }
 

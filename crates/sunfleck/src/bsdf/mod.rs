@@ -53,7 +53,7 @@ pub use thin_dielectric::{ThinDielectric, ThinDielectricMaterial};
 pub use crate::texture::{Lookup, Scalar, TextureId};
 pub use cover::{
     BumpMapMaterial, COVERINGS, Covering, MaskMaterial, MaterialId, MixMaterial, NormalMapMaterial, NullMaterial,
-    TwoSidedMaterial,
+    TurnedMaterial, TwoSidedMaterial,
 };
 
 use crate::{math::Local, spectrum::Spectrum};

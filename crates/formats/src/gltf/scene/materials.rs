@@ -129,7 +129,8 @@ impl Importer<'_> {
         }
         let opaque = self.principled(json, colour, name);
         let clear = self.transmission(json, colour, name);
-        self.target.builder().principled(opaque, clear)
+        let model = self.target.builder().principled(opaque, clear);
+        self.turned(json, model)
     }
 
     /// What lets light through: with a thickness the boundary of a body, without one a sheet.

@@ -3,6 +3,7 @@
 //! `nodes` walks the hierarchy; what hangs at a node is made by `meshes` (with `geometry`, `draco`, `skin` and `emission`),
 //! `lights` and `camera`; `materials` and `textures` say how surfaces look.
 
+mod brushed;
 mod camera;
 mod draco;
 mod emission;

@@ -6,8 +6,7 @@ use super::materials::ior;
 use super::textures::Role;
 use glam::Vec3;
 use serde_json::Value;
-use std::f32::consts::{FRAC_PI_2, FRAC_PI_4, PI};
-use sunfleck::bsdf::{PrincipledMaterial, Roughness, Scalar};
+use sunfleck::bsdf::PrincipledMaterial;
 use sunfleck::scene::TextureId;
 
 /// Reflectance along the normal at an index of 1.5.
@@ -53,31 +52,6 @@ impl Importer<'_> {
             self.note("gltf::iridescence", name, "the colours of its thin film are left out");
         }
         model
-    }
-
-    /// `KHR_materials_anisotropy`: along the tangent alpha goes from that of the material to 1 by the square of the strength.
-    fn brushed(&mut self, json: &Value, rough: Scalar, name: &str) -> Roughness {
-        let Some(brush) = json.extension("KHR_materials_anisotropy") else { return rough.into() };
-        let strength = brush.number("anisotropyStrength", 0.0).clamp(0.0, 1.0);
-        let picture = self.texture(brush.field("anisotropyTexture"), Role::Data);
-        let strength = strength * picture.map_or(1.0, |p| p.mean.z);
-        let Scalar::Constant(across) = rough else {
-            self.note("gltf::anisotropy", name, "with a picture of the roughness it is brushed in no direction");
-            return rough.into();
-        };
-        let alpha = across * across;
-        let along = (alpha + (1.0 - alpha) * strength * strength).sqrt();
-        let turn = brush.number("anisotropyRotation", 0.0).rem_euclid(PI);
-        if picture.is_some() || turn != 0.0 && (turn - FRAC_PI_2).abs() > 1e-3 {
-            self.note(
-                "gltf::anisotropy",
-                name,
-                "it is brushed along or across the texture coordinates, whichever is nearer",
-            );
-        }
-        let (along, across) = (Scalar::from(along), Scalar::from(across));
-        let is_across = (turn - FRAC_PI_2).abs() < FRAC_PI_4;
-        if is_across { Roughness { u: across, v: along } } else { Roughness { u: along, v: across } }
     }
 
     /// The older model: matt colour, reflectance along the normal, and glossiness.

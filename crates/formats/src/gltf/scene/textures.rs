@@ -57,7 +57,7 @@ impl Importer<'_> {
         Some(Picture { id: self.mapped(picture.id, map, set), alpha, ..picture })
     }
 
-    fn mapped(&mut self, of: TextureId, map: Affine2, set: usize) -> TextureId {
+    pub(super) fn mapped(&mut self, of: TextureId, map: Affine2, set: usize) -> TextureId {
         if map == Affine2::IDENTITY && set == 0 {
             return of;
         }
@@ -108,7 +108,12 @@ impl Importer<'_> {
 
     /// The picture that a property points to for looking at its colours here, with the way to its coordinates.
     pub(super) fn colours(&mut self, info: &Value) -> Option<(ImageTexture, Affine2, usize)> {
-        let (image, _) = self.decoded(info.index("index")?, Role::Colour)?;
+        self.lying(info, Role::Colour)
+    }
+
+    /// The picture that a property points to, with the way to its coordinates.
+    pub(super) fn lying(&mut self, info: &Value, role: Role) -> Option<(ImageTexture, Affine2, usize)> {
+        let (image, _) = self.decoded(info.index("index")?, role)?;
         Some((image, transform(info), uv_set(info)))
     }
 

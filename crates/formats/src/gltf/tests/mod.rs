@@ -1,5 +1,6 @@
 //! Small files, made here.
 
+mod brushed;
 mod limits;
 mod meaning;
 mod messages;

@@ -210,6 +210,13 @@ impl Writer<'_> {
                     + &float("scale", m.scale);
                 self.inner(m.of, "sunfleck-normalmap", &exact)?
             }
+            Covering::Turned(m) => {
+                let mut exact = param("string", "of", &self.name_of(m.of)) + &float("angle", m.angle);
+                if let Some(id) = m.direction {
+                    exact += &self.colour_param("direction", id)?;
+                }
+                self.inner(m.of, "sunfleck-turned", &exact)?
+            }
             Covering::BumpMap(m) => {
                 let height = self.scalar_param("displacement", m.height)?;
                 let exact = param("string", "of", &self.name_of(m.of))

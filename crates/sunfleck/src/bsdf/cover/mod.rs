@@ -11,12 +11,14 @@ mod coin;
 mod mask;
 mod mix;
 mod relief;
+mod turned;
 mod two_sided;
 
 pub use coin::Coin;
 pub use mask::{MaskMaterial, NullMaterial};
 pub use mix::MixMaterial;
 pub use relief::{BumpMapMaterial, NormalMapMaterial};
+pub use turned::TurnedMaterial;
 pub use two_sided::TwoSidedMaterial;
 
 use super::{Black, Bsdf, Lookup, Material, MaterialEntry, Scatter, TextureId};
@@ -72,6 +74,8 @@ pub enum Covering {
     NormalMap(NormalMapMaterial),
     /// See [`BumpMapMaterial`].
     BumpMap(BumpMapMaterial),
+    /// See [`TurnedMaterial`].
+    Turned(TurnedMaterial),
 }
 
 /// Every covering, for `sunfleck list materials`.
@@ -82,6 +86,7 @@ pub const COVERINGS: &[MaterialEntry] = &[
     TwoSidedMaterial::ENTRY,
     NormalMapMaterial::ENTRY,
     BumpMapMaterial::ENTRY,
+    TurnedMaterial::ENTRY,
 ];
 
 macro_rules! into_material {
@@ -97,7 +102,8 @@ into_material!(
     Null(NullMaterial),
     TwoSided(TwoSidedMaterial),
     NormalMap(NormalMapMaterial),
-    BumpMap(BumpMapMaterial)
+    BumpMap(BumpMapMaterial),
+    Turned(TurnedMaterial)
 );
 
 impl Covering {
@@ -110,6 +116,7 @@ impl Covering {
             Self::TwoSided(_) => TwoSidedMaterial::ENTRY.name,
             Self::NormalMap(_) => NormalMapMaterial::ENTRY.name,
             Self::BumpMap(_) => BumpMapMaterial::ENTRY.name,
+            Self::Turned(_) => TurnedMaterial::ENTRY.name,
         }
     }
     /// The textures it looks at itself.
@@ -120,6 +127,7 @@ impl Covering {
             Self::Null(_) | Self::TwoSided(_) => Vec::new(),
             Self::NormalMap(m) => vec![m.map],
             Self::BumpMap(m) => m.height.texture().into_iter().collect(),
+            Self::Turned(m) => m.direction.into_iter().collect(),
         }
     }
     /// The materials it is laid over.
@@ -131,6 +139,7 @@ impl Covering {
             Self::TwoSided(m) => [m.front, m.back].into_iter().flatten().collect(),
             Self::NormalMap(m) => vec![m.of],
             Self::BumpMap(m) => vec![m.of],
+            Self::Turned(m) => vec![m.of],
         }
     }
 }
@@ -154,6 +163,10 @@ pub(crate) fn cover(id: MaterialId, mut site: Site) -> Covered {
             }
             Material::Covering(Covering::BumpMap(m)) => {
                 site.n = m.normal(&site);
+                Some(m.of)
+            }
+            Material::Covering(Covering::Turned(m)) => {
+                site.tangents = Some(m.tangents(&site));
                 Some(m.of)
             }
             model => {
