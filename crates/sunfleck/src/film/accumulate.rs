@@ -1,5 +1,5 @@
 //! The mean over passes, and its variance.
-use super::{FilmSpec, PassImage};
+use super::{FilmSpec, PassImage, blank};
 use crate::spectrum::Rgb;
 use glam::DVec3;
 use rayon::prelude::*;
@@ -16,12 +16,7 @@ pub struct Film {
 impl Film {
     /// Nothing yet.
     pub fn new(spec: FilmSpec) -> Self {
-        Self {
-            spec,
-            sum: vec![DVec3::ZERO; spec.pixels()],
-            sum_of_squares: vec![DVec3::ZERO; spec.pixels()],
-            passes: 0,
-        }
+        Self { spec, sum: blank(&spec), sum_of_squares: blank(&spec), passes: 0 }
     }
     /// Size and filter.
     pub fn spec(&self) -> FilmSpec {
@@ -63,7 +58,7 @@ impl Film {
     /// The mean over passes, row-major from the top; black before the first.
     pub fn mean(&self) -> Vec<Rgb> {
         let k = 1.0 / self.passes.max(1) as f64;
-        self.sum.iter().map(|s| (*s * k).as_vec3()).collect()
+        self.sum.par_iter().with_min_len(4096).map(|s| (*s * k).as_vec3()).collect()
     }
     /// Variance of that mean, by channel, from the spread of the passes; `None` before the second.
     pub fn variance_of_mean(&self) -> Option<Vec<Rgb>> {

@@ -1,5 +1,5 @@
 //! What one pass writes.
-use super::{FilmSpec, splats, splats::Splats};
+use super::{FilmSpec, blank, splats, splats::Splats};
 use crate::spectrum::Rgb;
 use rayon::prelude::*;
 use std::ops::AddAssign;
@@ -38,7 +38,7 @@ pub struct PassImage {
 impl PassImage {
     /// A black picture.
     pub fn new(spec: FilmSpec) -> Self {
-        Self { spec, pixels: vec![Rgb::ZERO; spec.pixels()], counts: Counts::default() }
+        Self { spec, pixels: blank(&spec), counts: Counts::default() }
     }
     /// Size and filter.
     pub fn spec(&self) -> FilmSpec {
