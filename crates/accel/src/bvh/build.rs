@@ -25,6 +25,8 @@ pub(super) struct Binary {
     pub(super) plan: Plan,
     /// What it takes as one root.
     pub(super) size: Size,
+    /// What a ray that enters the box is expected to spend below, in visits of nodes.
+    pub(super) cost: f32,
 }
 
 /// A range of references with its boxes.
@@ -64,7 +66,7 @@ pub(super) fn build(refs: &mut [Ref], geometries: &[Geometry], quality: Quality)
     let builder = Builder { geometries, largest: side.bounds.half_area() * 0.02, crowd };
     let budget = (refs.len() as f32 * extra) as usize;
     let mut range = Range { refs, side, depth: 0, budget };
-    let blank = Binary { entry: range.refs[0], plan: Plan::PRIMITIVE, size: Size::default() };
+    let blank = Binary { entry: range.refs[0], plan: Plan::PRIMITIVE, size: Size::default(), cost: 0.0 };
     let mut nodes = large_vec(range.room());
     nodes.resize(range.room(), blank);
     builder.subdivide(&mut range, &mut nodes);
@@ -110,7 +112,12 @@ impl Builder<'_> {
         if let &mut [reference] = &mut *range.refs {
             let is_triangle = matches!(reference.owner(), Owner::Triangle { .. });
             let forest = Forest::primitive(bounds.half_area(), is_triangle);
-            nodes[0] = Binary { entry: reference, plan: Plan::PRIMITIVE, size: forest.size() };
+            nodes[0] = Binary {
+                entry: reference,
+                plan: Plan::PRIMITIVE,
+                size: forest.size(),
+                cost: forest.cost(bounds.half_area()),
+            };
             return forest;
         }
         let splittable = range.refs.len() > 2 && range.depth < FAIR_DEPTH;
@@ -158,7 +165,12 @@ impl Builder<'_> {
             (self.subdivide(&mut left, left_nodes), self.subdivide(&mut right, right_nodes))
         };
         let (forest, plan) = Forest::join(&left, &right, bounds.half_area());
-        *node = Binary { entry: Ref::numbered(bounds, right_at), plan, size: forest.size() };
+        *node = Binary {
+            entry: Ref::numbered(bounds, right_at),
+            plan,
+            size: forest.size(),
+            cost: forest.cost(bounds.half_area()),
+        };
         forest
     }
 }

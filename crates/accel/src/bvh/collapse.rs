@@ -12,7 +12,7 @@ use super::{
 /// What visiting one node and testing one block of triangles cost, measured: a smaller share for blocks makes for fuller
 /// ones, and so for smaller tables too.
 const NODE_COST: f32 = 1.0;
-const BLOCK_COST: f32 = 0.5;
+const BLOCK_COST: f32 = 0.4;
 /// Most triangles that collapse into one leaf.
 const MAX_LEAF: u32 = (LANES * Child::MAX_BLOCKS) as u32;
 
@@ -82,6 +82,11 @@ impl Forest {
     pub(super) fn primitive(half_area: f32, is_triangle: bool) -> Self {
         let size = Size { nodes: 0, blocks: u32::from(is_triangle) };
         Self { best: [Choice { cost: half_area * BLOCK_COST, size }; 7], count: 1, blocks: is_triangle }
+    }
+
+    /// Expected cost of the subtree as one root for a ray that meets its box, which has so much surface.
+    pub(super) fn cost(&self, half_area: f32) -> f32 {
+        self.best[0].cost / half_area
     }
 
     /// Tables needed for the subtree as one root.

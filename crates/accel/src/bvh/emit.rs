@@ -55,11 +55,25 @@ pub(super) fn emit(binary: &[Binary], geometries: &[Geometry], firsts: &[u32]) -
     table
 }
 
-/// Tells a parent in which cell its child lies.
-fn link(top: &mut [(Node, Places)], parent: Option<(usize, usize)>, cell: u32) {
-    if let Some((parent, slot)) = parent {
-        top[parent].0.children[slot] = Child::inner(cell);
-    }
+/// A child of a wide node that is being made.
+struct Kid {
+    /// Its binary node.
+    at: usize,
+    child: Child,
+    /// The surface of everything inside, one side of triangles.
+    surface: f32,
+}
+
+/// A wide node that has a place.
+struct Top<'a> {
+    cells: Places<'a>,
+    kids: Vec<Kid>,
+    parent: Option<(usize, usize)>,
+}
+
+/// What the parent knows of a child, if there is a parent.
+fn kid<'a>(top: &'a mut [Top], parent: Option<(usize, usize)>) -> Option<&'a mut Kid> {
+    parent.map(|(parent, slot)| &mut top[parent].kids[slot])
 }
 
 struct Emitter<'a> {
@@ -75,15 +89,15 @@ impl Emitter<'_> {
         let mut own = cells.take(Node::CELLS);
         if let Some(leaf) = self.binary.first() {
             let bounds = leaf.entry.bounds();
-            node.set(0, bounds.lo.xyz(), bounds.hi.xyz(), self.leaf(0, cells));
+            node.set(0, bounds.lo.xyz(), bounds.hi.xyz(), self.leaf(0, cells).0);
         }
         own.put(node);
     }
 
-    /// Writes a subtree: first its top, as much as a page holds, then the subtrees below.
-    fn subtree(&self, mut job: Job) {
+    /// Writes a subtree: first its top, as much as a page holds, then the subtrees below. Returns the surface inside.
+    fn subtree(&self, mut job: Job) -> f32 {
         let mut open = vec![Open { at: job.at, parent: None }];
-        let mut top: Vec<(Node, Places)> = Vec::new();
+        let mut top: Vec<Top> = Vec::new();
         let mut used = 0;
         while used < PAGE {
             let larger = |&a: &usize, &b: &usize| self.half_area(open[a].at).total_cmp(&self.half_area(open[b].at));
@@ -91,48 +105,75 @@ impl Emitter<'_> {
             let Open { at, parent } = open.swap_remove(largest);
             let before = job.cells.first();
             let cells = job.cells.take(Node::CELLS);
-            link(&mut top, parent, cells.first());
-            let node = self.node(at, top.len(), &mut job.cells, &mut open);
-            top.push((node, cells));
+            if let Some(kid) = kid(&mut top, parent) {
+                kid.child = Child::inner(cells.first());
+            }
+            let kids = self.kids(at, &mut job.cells);
+            let inner = kids.iter().enumerate().filter(|(_, kid)| kid.child.is_inner());
+            open.extend(inner.map(|(slot, kid)| Open { at: kid.at, parent: Some((top.len(), slot)) }));
+            top.push(Top { cells, kids, parent });
             used += job.cells.first() - before;
         }
-        let large = self.binary[job.at].size.nodes > PARALLEL;
-        let below: Vec<_> = open
-            .into_iter()
-            .map(|Open { at, parent }| {
-                let cells = job.cells.take(self.binary[at].size.cells());
-                link(&mut top, parent, cells.first());
-                Job { at, cells }
-            })
-            .collect();
-        assert!(job.cells.is_empty(), "sizes are exact");
-        for (node, mut cells) in top {
-            cells.put(node);
+        self.below(&mut top, open, &mut job);
+        let mut surface = 0.0;
+        while let Some(Top { mut cells, kids, parent }) = top.pop() {
+            surface = kids.iter().map(|kid| kid.surface).sum();
+            cells.put(self.node(kids));
+            if let Some(kid) = kid(&mut top, parent) {
+                kid.surface = surface;
+            }
         }
-        if large {
-            below.into_par_iter().for_each(|job| self.subtree(job));
+        surface
+    }
+
+    /// Writes the subtrees below a top.
+    fn below(&self, top: &mut [Top], open: Vec<Open>, job: &mut Job) {
+        let job_of = |open: &Open| Job { at: open.at, cells: job.cells.take(self.binary[open.at].size.cells()) };
+        let jobs: Vec<_> = open.iter().map(job_of).collect();
+        assert!(job.cells.is_empty(), "sizes are exact");
+        for (job, open) in jobs.iter().zip(&open) {
+            if let Some(kid) = kid(top, open.parent) {
+                kid.child = Child::inner(job.cells.first());
+            }
+        }
+        let surfaces: Vec<f32> = if self.binary[job.at].size.nodes > PARALLEL {
+            jobs.into_par_iter().map(|job| self.subtree(job)).collect()
         } else {
-            below.into_iter().for_each(|job| self.subtree(job));
+            jobs.into_iter().map(|job| self.subtree(job)).collect()
+        };
+        for (surface, open) in surfaces.into_iter().zip(open) {
+            if let Some(kid) = kid(top, open.parent) {
+                kid.surface = surface;
+            }
         }
     }
 
-    /// Makes the wide node of `at`, which is the `index`th of its top, and writes its leaves. Its inner children are opened.
-    fn node(&self, at: usize, index: usize, cells: &mut Places, open: &mut Vec<Open>) -> Node {
+    /// The children of the wide node of `at`; leaves are written.
+    fn kids(&self, at: usize, cells: &mut Places) -> Vec<Kid> {
         let mut roots = Vec::with_capacity(WIDTH);
         self.split(at, self.binary[at].plan.left_roots(WIDTH), WIDTH, &mut roots);
-        // Rays that ask for any hit take the last child first: the largest box is the likeliest to hold one.
-        roots.sort_by(|&a, &b| self.half_area(a).total_cmp(&self.half_area(b)));
+        let kid = |at: usize| {
+            let Binary { plan, size, .. } = self.binary[at];
+            let (child, surface) =
+                if plan.is_leaf() { self.leaf(at, cells.take(size.cells())) } else { (Child::inner(0), 0.0) };
+            Kid { at, child, surface }
+        };
+        roots.into_iter().map(kid).collect()
+    }
+
+    /// Rays that ask for any hit take the last child first: the one with the best odds of a hit for its cost, of which
+    /// only the root counts, as a hit ends the search. A line that meets a box meets surfaces inside as often, on average, as
+    /// half of the box's surface goes into theirs.
+    fn node(&self, mut kids: Vec<Kid>) -> Node {
+        let worth = |kid: &Kid| {
+            let half_area = self.half_area(kid.at);
+            (1.0 - (-kid.surface / half_area).exp()) / self.binary[kid.at].cost.sqrt()
+        };
+        kids.sort_by_cached_key(|kid| worth(kid).to_bits());
         let mut node = Node::EMPTY;
-        for (slot, at) in roots.into_iter().enumerate() {
-            let Binary { entry, plan, size } = self.binary[at];
-            let child = if plan.is_leaf() {
-                self.leaf(at, cells.take(size.cells()))
-            } else {
-                open.push(Open { at, parent: Some((index, slot)) });
-                Child::inner(0)
-            };
-            let bounds = entry.bounds();
-            node.set(slot, bounds.lo.xyz(), bounds.hi.xyz(), child);
+        for (slot, kid) in kids.into_iter().enumerate() {
+            let bounds = self.binary[kid.at].entry.bounds();
+            node.set(slot, bounds.lo.xyz(), bounds.hi.xyz(), kid.child);
         }
         node
     }
@@ -157,26 +198,27 @@ impl Emitter<'_> {
         }
     }
 
-    /// Writes the leaf for everything below `at`.
-    fn leaf(&self, at: usize, mut cells: Places) -> Child {
+    /// Writes the leaf for everything below `at`; also the surface inside.
+    fn leaf(&self, at: usize, mut cells: Places) -> (Child, f32) {
         let mut owners = Vec::with_capacity(LANES * Child::MAX_BLOCKS);
         self.owners(at, &mut owners);
         match owners[0] {
-            Owner::Sphere(index) => return Child::sphere(index),
-            Owner::Instance(index) => return Child::instance(index),
+            Owner::Sphere(index) => return (Child::sphere(index), self.half_area(at)),
+            Owner::Instance(index) => return (Child::instance(index), self.half_area(at)),
             Owner::Triangle { .. } => {}
         }
-        let first = cells.first();
-        let blocks = owners.chunks(LANES).map(|owners| cells.put(self.block(owners))).count();
+        let (first, mut surface) = (cells.first(), 0.0);
+        let blocks = owners.chunks(LANES).map(|owners| cells.put(self.block(owners, &mut surface))).count();
         assert!(cells.is_empty(), "sizes are exact");
-        Child::blocks(first, blocks as u32)
+        (Child::blocks(first, blocks as u32), surface)
     }
 
-    fn block(&self, owners: &[Owner]) -> Block {
+    fn block(&self, owners: &[Owner], surface: &mut f32) -> Block {
         let mut block = Block::EMPTY;
         for (lane, owner) in owners.iter().enumerate() {
             let &Owner::Triangle { geometry, primitive } = owner else { unreachable!("only triangles share a leaf") };
-            let corners = self.geometries[geometry as usize].corners(primitive);
+            let corners @ [a, b, c] = self.geometries[geometry as usize].corners(primitive);
+            *surface += 0.5 * (b - a).cross(c - a).length();
             block.set(lane, corners, self.firsts[geometry as usize] + primitive);
         }
         block

@@ -15,7 +15,7 @@ use rayon::prelude::*;
 /// Boxes with more of the scene's surface than this are not cut: walls stay whole, near the root, where a ray that asks
 /// for any hit finds them at once.
 const LARGEST: f32 = 0.02;
-/// Triangles are cut if they waste more than this many times the mean surface of a box.
+/// One cut is worth this waste, in mean surfaces of a box, and triangles are cut if they waste twice as much.
 const WORTH_A_CUT: f32 = 0.5;
 /// Grid planes must leave this much of a box on either side.
 const MARGIN: f32 = 0.2;
@@ -34,7 +34,7 @@ pub(super) fn presplit(refs: &mut Vec<Ref>, geometries: &[Geometry], bounds: &Bo
     let candidate = |(index, reference): (usize, &Ref)| {
         let waste = waste(reference, geometries, bounds.half_area() * LARGEST);
         // Among n parts of a long triangle the waste falls as 1/n, so that the next cut saves about waste/n².
-        (waste > unit).then(|| Candidate { index, cuts: (waste / unit).sqrt() })
+        (waste > 2.0 * unit).then(|| Candidate { index, cuts: (waste / unit).sqrt() })
     };
     let candidates: Vec<_> = refs.par_iter().enumerate().filter_map(candidate).collect();
     let scale = affordable(&candidates, (refs.len() as f32 * share) as usize);
