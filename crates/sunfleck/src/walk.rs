@@ -108,38 +108,6 @@ pub struct Start {
 ///
 /// Returns the number of rays traced.
 pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler, visitor: &mut impl Visit) -> u64 {
-    walk_by::<false>(world, start, *limits, sampler, visitor)
-}
-
-/// As [`walk`], but where a delta surface offers two ways, takes each with probability [`way_prob`] instead of in proportion to
-/// what it carries: finds what is bright behind rare reflections. [`Scattered::pdf`] stays the probability of [`walk`].
-pub fn walk_evenly(
-    world: &World,
-    start: &Start,
-    limits: &Limits,
-    sampler: &mut Sampler,
-    visitor: &mut impl Visit,
-) -> u64 {
-    walk_by::<true>(world, start, *limits, sampler, visitor)
-}
-
-/// Probability of a reflection in [`walk_evenly`]: well above that of clear glass, and low enough for the many passages
-/// between two reflections.
-const REFLECT: f32 = 0.25;
-
-/// Probability with which [`walk_evenly`] takes the way `s` of two at a delta surface.
-#[inline]
-pub fn way_prob(s: &Scattered) -> f32 {
-    if s.crosses { 1.0 - REFLECT } else { REFLECT }
-}
-
-fn walk_by<const EVENLY: bool>(
-    world: &World,
-    start: &Start,
-    limits: Limits,
-    sampler: &mut Sampler,
-    visitor: &mut impl Visit,
-) -> u64 {
     let Start { mut ray, mut beta, mode, mut dispersed } = *start;
     let (mut pdf, mut delta, mut all_delta) = (1.0, true, true);
     let (mut eta_scale, mut travelled) = (1.0f32, 0.0);
@@ -156,14 +124,8 @@ fn walk_by<const EVENLY: bool>(
             break;
         }
         let u_lobe = if at.bsdf.has_one_lobe() { sampler.skip() } else { sampler.next_1d() };
-        let evenly = EVENLY && !at.is_connectible();
-        // Reflections have the lower numbers.
-        let u_lobe = if evenly { if u_lobe < REFLECT { 0.0 } else { 1.0 - f32::EPSILON } } else { u_lobe };
         let u = if at.bsdf.is_polished() { Vec2::splat(sampler.skip()) } else { sampler.next_2d() };
-        let Some(mut s) = at.sample(u_lobe, u, mode) else { break };
-        if evenly && s.pdf < 1.0 {
-            s.weight *= s.pdf / way_prob(&s);
-        }
+        let Some(s) = at.sample(u_lobe, u, mode) else { break };
         if step == Step::OnIfDelta && !s.delta {
             break;
         }

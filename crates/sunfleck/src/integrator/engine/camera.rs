@@ -2,7 +2,7 @@
 use super::{
     gather::gather,
     joins::{Joins, LastLeg},
-    lamps::{Chain, Lamps, is_small},
+    lamps::Lamps,
     light::Subpaths,
     mis::{Leg, Rule, Sums},
     plan::Plan,
@@ -62,8 +62,8 @@ pub(super) struct Look<'w> {
     /// Which light path is connected to; drawn once.
     partner: usize,
     track: Track,
-    /// The delta lobes so far, while there are no others.
-    chain: Option<Chain>,
+    /// Only surfaces without other than delta lobes so far: the lights that are met are left to [`Lamps`].
+    mirrors_only: bool,
     /// The first surface was a mirror or glass.
     mirrored: bool,
     /// [`Joins::hit_share`] of the last vertex.
@@ -90,7 +90,7 @@ impl<'w> Look<'w> {
             eta: rule.eta(radius),
             partner: start.partner,
             track: Track::new(),
-            chain: Some(Chain::new()),
+            mirrors_only: true,
             mirrored: false,
             hit_share: 1.0,
             from: start.from,
@@ -103,9 +103,9 @@ impl<'w> Look<'w> {
     pub(super) fn began_with_delta(&self) -> bool {
         self.mirrored
     }
-    /// Adds what the second walk found (see [`super::lamps`]).
-    pub(super) fn add_lamps(&mut self, lamps: &Lamps, rays: u64) {
-        self.rays += rays;
+    /// Adds the lights that are seen through mirrors and glass alone.
+    pub(super) fn add_lamps(&mut self, lamps: &Lamps) {
+        self.rays += u64::from(lamps.rays);
         self.add(Technique::Hit, lamps.sum, 1.0);
     }
     /// What the path found; `rays` were traced by its walk.
@@ -178,22 +178,18 @@ impl Visit for Look<'_> {
     }
     #[inline]
     fn scatter(&mut self, at: &Interaction, s: &Scattered) {
-        // The second walk ends where photons could be gathered, whatever lobe this one takes.
-        self.chain = self.chain.filter(|_| s.delta && !at.is_connectible()).map(|mut chain| {
-            chain.pass(s);
-            chain
-        });
+        self.mirrors_only &= !at.is_connectible();
         self.track.depart_from_camera(&self.rule, at, s);
     }
     #[inline]
     fn escape(&mut self, e: &Escape) {
         let eye = self.eye;
-        if !self.rule.on.hit && e.scatterings > 0 {
+        if e.scatterings > 0 && (self.mirrors_only || !self.rule.on.hit) {
             return;
         }
         let sums = if e.scatterings == 0 { Sums::default() } else { self.track.after(&self.rule, Leg::AWAY) };
         for sky in eye.world.escaped(self.from, e.ray.d) {
-            let weight = if self.chain.is_some() {
+            let weight = if e.scatterings == 0 {
                 1.0
             } else {
                 self.joins().sky(&sums, LastLeg::new(self.from, e.pdf, e.delta), e.ray.d, &sky)
@@ -227,12 +223,11 @@ impl Look<'_> {
         let eye = self.eye;
         let le = eye.world.emitted(a.at);
         // Lights seen directly are left to this sampler, whatever is on.
-        if le.is_black() || (!self.rule.on.hit && a.scatterings > 0) {
+        if le.is_black() || (a.scatterings > 0 && (self.mirrors_only || !self.rule.on.hit)) {
             return;
         }
-        let weight = if let Some(chain) = &self.chain {
-            let small = a.at.light.is_some_and(|id| is_small(self.eye.world, self.eye.world.light(id)));
-            if a.scatterings > 0 && small { chain.weight() } else { 1.0 }
+        let weight = if a.scatterings == 0 {
+            1.0
         } else {
             self.joins().hit(sums, LastLeg::new(self.from, a.pdf, a.delta), a.at)
         };

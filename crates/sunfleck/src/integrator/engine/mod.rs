@@ -36,12 +36,12 @@ use crate::{
     },
     scene::{MID_SHUTTER, Scene, World},
     spectrum::Wavelengths,
-    walk::{Limits, walk, walk_evenly},
+    walk::{Limits, walk},
 };
 use camera::{Eye, EyeStart, Look, Only};
 use chains::Chains;
 use glam::Vec2;
-use lamps::{Lamps, is_small};
+use lamps::Lamps;
 use light::{Shower, Subpaths};
 use mis::Rule;
 use plan::Plan;
@@ -358,7 +358,6 @@ impl Prepared<'_> {
             only: job.only,
         };
         let spec = image.spec();
-        let small_lamps = world.lights().any(|l| is_small(&world, l));
         image.fill(|x, y, counts| {
             let mut ray = EyeRay::new(&world, spec, &job.pass, job.sample, (x, y));
             let start = EyeStart {
@@ -370,12 +369,9 @@ impl Prepared<'_> {
             let mut look = Look::new(&eye, start, counts);
             let (limits, start_ray) = (&self.engine.limits, ray.start());
             let rays = walk(&world, &start_ray, limits, &mut ray.sampler, &mut look);
-            if small_lamps && look.began_with_delta() {
-                // Rare ways are the point: no roulette ends them. The numbers go on from those of the first walk.
-                let limits = Limits { roulette_after: u32::MAX, ..*limits };
-                let mut lamps = Lamps::new(&world);
-                let rays = walk_evenly(&world, &start_ray, &limits, &mut ray.sampler, &mut lamps);
-                look.add_lamps(&lamps, rays);
+            if rule.on.hit && look.began_with_delta() {
+                // The numbers go on from those of the walk.
+                look.add_lamps(&Lamps::look(&world, &start_ray, limits, &mut ray.sampler));
             }
             look.finish(rays).to_rgb(job.pass.lambda) * (job.share * ray.weight)
         });
