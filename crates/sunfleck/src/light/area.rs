@@ -36,20 +36,22 @@ impl AreaLight {
         let cos = ng.dot(d);
         if self.sides == Sides::Two { cos.abs() } else { cos.max(0.0) }
     }
-    /// Draws a point as seen from `from`: by solid angle where the shape can, else by area.
+    /// Draws a point as seen from `from`, its direction and the density of that: by solid angle where the shape can, else by
+    /// area.
     #[inline]
-    fn sample_point(&self, from: Vec3, u: Vec2) -> Option<(AreaSample, f32)> {
+    fn sample_point(&self, from: Vec3, u: Vec2) -> Option<(AreaSample, Vec3, f32)> {
         if let Shape::Sphere(s) = &self.shape
-            && let Some(seen) = s.sample_visible(from, u)
+            && let Some((q, pdf)) = s.sample_visible(from, u)
         {
-            return Some(seen);
+            return Some((q, (q.p - from).try_normalize()?, pdf));
         }
         let q = self.shape.sample_area(u);
         let to = q.p - from;
         let d2 = to.length_squared();
-        let cos = q.ng.dot(to).abs() / d2.sqrt();
+        let wi = to * d2.sqrt().recip();
+        let cos = q.ng.dot(wi).abs();
         let pdf = d2 / (cos * self.shape.area());
-        (pdf.is_finite() && cos > 0.0).then_some((q, pdf))
+        (pdf.is_finite() && cos > 0.0).then_some((q, wi, pdf))
     }
 }
 
@@ -64,8 +66,7 @@ impl Emitter for AreaLight {
     }
     #[inline]
     fn sample_li(&self, from: Vec3, u: Vec2, around: &Surroundings) -> Option<LiSample> {
-        let (q, pdf) = self.sample_point(from, u)?;
-        let wi = (q.p - from).try_normalize()?;
+        let (q, wi, pdf) = self.sample_point(from, u)?;
         (self.emission_cos(q.ng, -wi) > 0.0).then(|| LiSample {
             wi,
             li: self.radiance.at(around.lambda),

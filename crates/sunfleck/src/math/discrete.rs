@@ -45,6 +45,9 @@ impl Discrete {
     /// Picks a row: `(row, prob, u')` with `u'` uniform in [0, 1) again. `None` when empty.
     #[inline]
     pub fn sample(&self, u: f32) -> Option<(usize, f32, f32)> {
+        if self.len() == 1 {
+            return Some((0, 1.0, u));
+        }
         let i = self.cdf.partition_point(|&c| c <= u).min(self.cdf.len().checked_sub(1)?);
         let prob = self.prob(i);
         let lo = if i == 0 { 0.0 } else { self.cdf[i - 1] };

@@ -6,7 +6,7 @@
 use super::{Kernel, NearestMap, Photon, RadiusMap};
 use crate::{
     bsdf::{Bsdf, Transport},
-    scene::Interaction,
+    scene::{Interaction, NearSide},
     spectrum::Spectrum,
 };
 use accel::Neighbours;
@@ -37,7 +37,7 @@ struct Estimate<'i> {
     end: CameraEnd,
     /// Set where scattering is the same for all directions on the eye's side and none on the other, which is where most
     /// photons are gathered: only their flux needs summing.
-    matt: bool,
+    matt: Option<NearSide>,
     sum: Spectrum,
     /// Photons in the sum.
     count: u32,
@@ -46,7 +46,8 @@ struct Estimate<'i> {
 impl<'i> Estimate<'i> {
     #[inline]
     fn new(at: &'i Interaction, end: CameraEnd) -> Self {
-        Self { at, end, matt: matches!(at.bsdf, Bsdf::Diffuse(_)), sum: Spectrum::BLACK, count: 0 }
+        let matt = matches!(at.bsdf, Bsdf::Diffuse(_)).then(|| at.near_side());
+        Self { at, end, matt, sum: Spectrum::BLACK, count: 0 }
     }
     #[inline]
     fn add(&mut self, photon: &Photon, weight: f32) {
@@ -54,21 +55,22 @@ impl<'i> Estimate<'i> {
             return;
         }
         let weight = weight * Spectrum::join(self.end.dispersed, photon.dispersed);
-        if !self.matt {
+        let Some(side) = &self.matt else {
             let f = self.at.f_photon(photon.wi);
             self.count += u32::from(!f.is_black());
             self.sum += f * photon.flux * weight;
             return;
-        }
-        if self.at.is_on_near_side(photon.wi) {
+        };
+        if let Some((_, ratio)) = side.cos_and_ratio(photon.wi) {
             self.count += 1;
-            self.sum += photon.flux * (weight * self.at.cos_ratio(photon.wi));
+            self.sum += photon.flux * (weight * ratio);
         }
     }
     /// Radiance, when the weights are over the mean on a disc of squared radius `r2`.
     #[inline]
     fn radiance(self, r2: f32) -> Spectrum {
-        let flux_to_radiance = if self.matt { self.at.f(self.at.wo, Transport::Radiance) } else { Spectrum::ONE };
+        let flux_to_radiance =
+            if self.matt.is_some() { self.at.f(self.at.wo, Transport::Radiance) } else { Spectrum::ONE };
         flux_to_radiance * self.sum * (1.0 / (PI * r2))
     }
 }

@@ -105,9 +105,9 @@ impl Evenness<'_> {
 /// Photons in each part of the disc at `at`; `None` if they are few.
 fn count(map: &RadiusMap<Spot>, at: &Interaction, radius: f32) -> Option<[u32; PARTS]> {
     let frame = Frame::from_normal(at.ng);
-    let mut parts = [0; PARTS];
+    let (mut parts, side) = ([0; PARTS], at.near_side());
     map.within(at.p, radius, |spot, d2| {
-        if at.is_on_near_side(spot.wi) {
+        if side.cos_and_ratio(spot.wi).is_some() {
             let d = spot.p - at.p;
             let quarter = usize::from(d.dot(frame.s) > 0.0) + 2 * usize::from(d.dot(frame.t) > 0.0);
             parts[quarter + 4 * usize::from(2.0 * d2 > radius * radius)] += 1;

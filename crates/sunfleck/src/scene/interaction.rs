@@ -56,6 +56,27 @@ pub struct Scattered {
     pub disperses: bool,
 }
 
+/// One side of a surface, for asking about many directions.
+#[derive(Clone, Copy, Debug)]
+pub struct NearSide {
+    n: Vec3,
+    ng: Vec3,
+    is_flat: bool,
+}
+
+impl NearSide {
+    /// The shading cosine of `wi`, and that over the true cosine; `None` if `wi` is on the other side by one of the normals.
+    #[inline]
+    pub fn cos_and_ratio(&self, wi: Vec3) -> Option<(f32, f32)> {
+        let cos = self.n.dot(wi);
+        if self.is_flat {
+            return (cos > 0.0).then_some((cos, 1.0));
+        }
+        let true_cos = self.ng.dot(wi);
+        (cos > 0.0 && true_cos > 0.0).then(|| (cos, cos / true_cos))
+    }
+}
+
 impl Interaction {
     #[inline(always)]
     pub(super) fn new(s: &SurfacePoint, wo: Vec3, distance: f32, bsdf: Bsdf, surface: &Surface) -> Self {
@@ -83,7 +104,7 @@ impl Interaction {
     /// about the side of a direction (light would leak through the surface).
     #[inline]
     pub fn f(&self, wi: Vec3, mode: Transport) -> Spectrum {
-        let (lo, li) = (self.frame.to_local(self.wo), self.frame.to_local(wi));
+        let (lo, li) = (self.local(self.wo), self.local(wi));
         if self.sides_agree(self.wo, lo) && self.sides_agree(wi, li) {
             self.bsdf.eval(lo, li, mode)
         } else {
@@ -118,34 +139,34 @@ impl Interaction {
     pub fn true_cos(&self, w: Vec3) -> f32 {
         self.ng.dot(w).abs()
     }
-    /// Whether `wi` lies on the eye's side of the surface, by the shading normal and by the true one.
+    /// The eye's side of the surface.
     #[inline]
-    pub fn is_on_near_side(&self, wi: Vec3) -> bool {
-        let (n, ng) = (self.frame.n, self.ng);
-        n.dot(wi) * n.dot(self.wo) > 0.0 && ng.dot(wi) * ng.dot(self.wo) > 0.0
+    pub fn near_side(&self) -> NearSide {
+        let toward = |n: Vec3| n * 1f32.copysign(n.dot(self.wo));
+        NearSide { n: toward(self.frame.n), ng: toward(self.ng), is_flat: self.is_flat() }
     }
     /// Density (1/sr) with which [`Interaction::sample`] draws `wi`.
     #[inline]
     pub fn pdf(&self, wi: Vec3) -> f32 {
-        self.bsdf.pdf(self.frame.to_local(self.wo), self.frame.to_local(wi))
+        self.bsdf.pdf(self.local(self.wo), self.local(wi))
     }
     /// Density (1/sr) with which a path that comes from `wi` would be sent to `wo`: [`Interaction::pdf`] the other way.
     #[inline]
     pub fn pdf_back(&self, wi: Vec3) -> f32 {
-        self.bsdf.pdf(self.frame.to_local(wi), self.frame.to_local(self.wo))
+        self.bsdf.pdf(self.local(wi), self.local(self.wo))
     }
     /// Draws a direction to go on in. `None` when nothing is carried on.
     #[inline]
     pub fn sample(&self, u_lobe: f32, u: Vec2, mode: Transport) -> Option<Scattered> {
-        let lo = self.frame.to_local(self.wo);
+        let lo = self.local(self.wo);
         let s = self.bsdf.sample(lo, u_lobe, u, mode)?;
         let wi = self.frame.to_world(s.wi);
         if !(self.sides_agree(self.wo, lo) && self.sides_agree(wi, s.wi)) || s.weight.is_black() {
             return None;
         }
         let adjoint = match mode {
-            Transport::Radiance => 1.0,
-            Transport::Flux => self.cos_factor(wi, mode) / s.wi.abs_cos_theta(),
+            Transport::Flux if !self.is_flat() => self.cos_factor(wi, mode) / s.wi.abs_cos_theta(),
+            _ => 1.0,
         };
         let weight = s.weight * adjoint;
         let BsdfSample { pdf, delta, eta, disperses, .. } = s;
@@ -159,6 +180,16 @@ impl Interaction {
             Transport::Radiance => n.dot(wi).abs(),
             Transport::Flux => n.dot(self.wo).abs() * self.ng.dot(wi).abs() / self.ng.dot(self.wo).abs(),
         }
+    }
+    /// `w` in the shading frame, as far as the model looks at it: what is matt asks for its height alone.
+    #[inline]
+    fn local(&self, w: Vec3) -> Local {
+        if let Bsdf::Diffuse(_) = self.bsdf { Local(w.dot(self.frame.n) * Vec3::Z) } else { self.frame.to_local(w) }
+    }
+    /// Whether shading and geometric normal are the same.
+    #[inline]
+    fn is_flat(&self) -> bool {
+        self.frame.n == self.ng
     }
     /// Whether `w` lies on the same side for both normals.
     #[inline]

@@ -12,10 +12,34 @@ pub struct Mesh {
     normals: Vec<Vec3>,
     pub(super) uvs: Vec<Vec2>,
     indices: Vec<[u32; 3]>,
+    /// By triangle.
+    planes: Vec<Plane>,
     /// Triangle areas, for drawing points.
     areas: Discrete,
     /// If there is more.
     pub(super) attributes: Option<Box<Attributes>>,
+}
+
+/// What is the same all over a triangle.
+#[derive(Clone, Copy, Debug)]
+struct Plane {
+    /// Unit normal.
+    ng: Vec3,
+    /// Bound on each coordinate's absolute error of points computed from barycentrics.
+    p_error: f32,
+}
+
+impl Plane {
+    /// The plane of a triangle, and the triangle's area (m²).
+    fn new([a, b, c]: [Vec3; 3]) -> (Self, f32) {
+        let (e1, e2) = (b - a, c - a);
+        let (ng, twice_area) = unit_and_length(e1.cross(e2));
+        // Barycentrics are themselves rounded; a moved barycentric moves the point within the plane only.
+        let p_error = gamma(7.0) * a.abs().max(b.abs()).max(c.abs()) + plane_error(e1, e2, ng, twice_area);
+        // What counts is how far the point may lie off the plane; that is kept, spread evenly over the coordinates.
+        let across = ng.abs();
+        (Self { ng, p_error: p_error.dot(across) / across.element_sum() }, 0.5 * twice_area)
+    }
 }
 
 /// Why vertices and indices do not make a mesh.
@@ -65,11 +89,13 @@ impl Mesh {
                 return Err(MeshError::Index { triangle, index, vertices });
             }
         }
+        let mut planes = Vec::with_capacity(indices.len());
         let areas = Discrete::new(indices.iter().map(|t| {
-            let [a, b, c] = t.map(|i| positions[i as usize]);
-            0.5 * (b - a).cross(c - a).length()
+            let (plane, area) = Plane::new(t.map(|i| positions[i as usize]));
+            planes.push(plane);
+            area
         }));
-        Ok(Self { positions, normals, uvs, indices, areas, attributes: None })
+        Ok(Self { positions, normals, uvs, indices, planes, areas, attributes: None })
     }
     /// Vertex positions.
     pub fn positions(&self) -> &[Vec3] {
@@ -105,12 +131,8 @@ impl Mesh {
     #[inline]
     fn point(&self, triangle: u32, u: f32, v: f32) -> (Vec3, Vec3, Vec3) {
         let [a, b, c] = self.corners(&self.positions, triangle);
-        let (pa, pb, pc) = ((1.0 - u - v) * a, u * b, v * c);
-        // Barycentrics are themselves rounded; a moved barycentric moves the point within the plane only.
-        let p_error = gamma(7.0) * (pa.abs() + pb.abs() + pc.abs());
-        let (e1, e2) = (b - a, c - a);
-        let (ng, twice_area) = unit_and_length(e1.cross(e2));
-        (pa + pb + pc, p_error + plane_error(e1, e2, ng, twice_area), ng)
+        let Plane { ng, p_error } = self.planes[triangle as usize];
+        ((1.0 - u - v) * a + u * b + v * c, Vec3::splat(p_error), ng)
     }
     #[inline]
     pub(super) fn surface_point(&self, hit: &Hit, wants_uv: bool) -> SurfacePoint {

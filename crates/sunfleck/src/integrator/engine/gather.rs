@@ -23,11 +23,11 @@ pub(super) fn gather(
     let mut sum = Spectrum::BLACK;
     if let Bsdf::Diffuse(_) = at.bsdf {
         // Scattering is the same for all directions on the eye's side, and none on the other.
-        let back = at.shading_cos(at.wo) * FRAC_1_PI;
+        let (side, back) = (at.near_side(), at.shading_cos(at.wo) * FRAC_1_PI);
         map.within(at.p, disc.radius, |photon, d2| {
-            if u32::from(photon.scatterings) <= end.most && at.is_on_near_side(photon.wi) {
-                let between = Between { forward: at.shading_cos(photon.wi) * FRAC_1_PI, back };
-                let weight = join(photon) * weigh(photon, between) * at.cos_ratio(photon.wi);
+            let Some((cos, ratio)) = side.cos_and_ratio(photon.wi) else { return };
+            if u32::from(photon.scatterings) <= end.most {
+                let weight = join(photon) * weigh(photon, Between { forward: cos * FRAC_1_PI, back }) * ratio;
                 sum += photon.flux * (weight * disc.kernel.shape(d2, r2));
             }
         });

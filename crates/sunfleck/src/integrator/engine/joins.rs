@@ -45,7 +45,8 @@ impl Joins<'_> {
     pub(super) fn hit(&self, sums: &Sums, leg: LastLeg, at: &Interaction) -> f32 {
         let direct = leg.pdf.map_or(0.0, |pdf| self.world.pdf_direct(leg.from, -at.wo, at) / (pdf * self.hit_share));
         let emitted = |light| self.source.pdf(self.world, light, Some(&at.emitter_hit()), at.p, at.wo);
-        self.rule.hit_weight(sums, direct, at.light.map_or(0.0, emitted), self.eta)
+        let light = at.light.filter(|_| self.rule.needs_sums());
+        self.rule.hit_weight(sums, direct, light.map_or(0.0, emitted), self.eta)
     }
     /// Weight of leaving the scene toward `d`, where `sky` is.
     #[inline]
@@ -58,6 +59,11 @@ impl Joins<'_> {
     #[inline]
     pub(super) fn nee(&self, sums: &Sums, at: &Interaction, d: &DirectSample) -> f32 {
         let li = &d.li;
+        let hit_over_pdf =
+            if self.world.light(d.light).is_delta() { 0.0 } else { self.hit_share * at.pdf(li.wi) / li.pdf };
+        if !self.rule.needs_sums() {
+            return self.rule.nee_weight(sums, hit_over_pdf, 0.0, 0.0, self.eta);
+        }
         // Per area at the vertex, over the choice of the light's point in the measure of the emission.
         let (hit, to_emission) = match &li.end {
             LightEnd::Infinite => (None, 1.0),
@@ -66,8 +72,6 @@ impl Joins<'_> {
         };
         let emitted = self.source.pdf(self.world, d.light, hit.as_ref(), at.p, -li.wi);
         let emitted_over_pdf = emitted * at.true_cos(li.wi) / (li.pdf * to_emission);
-        let hit_over_pdf =
-            if self.world.light(d.light).is_delta() { 0.0 } else { self.hit_share * at.pdf(li.wi) / li.pdf };
         self.rule.nee_weight(sums, hit_over_pdf, emitted_over_pdf, at.pdf_back(li.wi), self.eta)
     }
     /// Weight of the connection from `at` toward `wi` to `v`, the square of `d2` away.
@@ -93,6 +97,9 @@ pub(super) struct Departed<'e> {
 impl Rule {
     /// The sums of a light subpath at its first vertex, `at`.
     pub(super) fn reach(&self, world: &World, from: Departed, at: &Interaction) -> Sums {
+        if !self.needs_sums() {
+            return Sums::ALONE;
+        }
         let (light, prob) = (world.light(from.light), world.light_prob(from.light));
         // Density of next-event estimation, in the measure of the emission.
         let direct = match from.origin {

@@ -57,6 +57,9 @@ pub(super) struct Sums {
 }
 
 impl Sums {
+    /// Those of a camera subpath that no light subpath is weighed with: see [`Rule::needs_sums`].
+    pub(super) const ALONE: Self =
+        Self { vcm: 0.0, vc: 0.0, image: 0.0, vc_image: 0.0, vm_last: 0.0, vm_rest: 0.0, geometry: 0.0, shared: 1.0 };
     /// Connections of every kind at all earlier vertices.
     #[inline]
     pub(super) fn vc(&self) -> f32 {
@@ -81,6 +84,13 @@ pub(super) struct Turn {
 }
 
 impl Rule {
+    /// Whether weights depend on how subpaths came about. They do not where light paths are met in the first gather alone,
+    /// which finds what no other sampler does; there, sums stay [`Sums::ALONE`].
+    #[inline]
+    pub(super) fn needs_sums(&self) -> bool {
+        let Techniques { light_image, connect, merge, .. } = self.on;
+        light_image || connect || (merge.is_on() && !merge.at_first_only())
+    }
     /// `η = n·π·r²`, compared as the heuristic has it.
     #[inline]
     pub(super) fn eta(&self, radius: f32) -> f32 {

@@ -41,12 +41,18 @@ impl Track {
     /// The sums of a camera subpath at `at`, reached after so many scatterings. `pixel`: what one covers.
     #[inline]
     pub(super) fn arrive_from_camera(&self, rule: &Rule, pixel: Spread, scatterings: u32, at: &Interaction) -> Sums {
+        if !rule.needs_sums() {
+            return Sums::ALONE;
+        }
         let leg = Leg::to(at);
         if scatterings == 0 { rule.leave_camera(pixel.area_at(at.distance), leg.cos) } else { self.after(rule, leg) }
     }
     /// [`Track::depart`] of a camera subpath.
     #[inline]
     pub(super) fn depart_from_camera(&mut self, rule: &Rule, at: &Interaction, s: &Scattered) {
+        if !rule.needs_sums() {
+            return;
+        }
         // Photons gathered here will have been scattered at the next vertex, by a delta lobe for all that is known: `rough`
         // takes it back if not, and `hit_weight` if that vertex is the light.
         let merges = rule.merges(1, true) * self.sums.shared;
@@ -58,12 +64,18 @@ impl Track {
     /// [`Track::depart`] of a light subpath. `merges`: [`Rule::merges`] of `at`.
     #[inline]
     pub(super) fn depart_from_light(&mut self, rule: &Rule, at: &Interaction, s: &Scattered, merges: f32) {
+        if !rule.needs_sums() {
+            return;
+        }
         let geometry = self.sums.geometry;
         self.depart(at, s, merges, |back| rule.sharing(back * geometry));
     }
     /// The sums one leg on.
     #[inline]
     pub(super) fn after(&self, rule: &Rule, to: Leg) -> Sums {
+        if !rule.needs_sums() {
+            return Sums::ALONE;
+        }
         match &self.departure {
             Departure::Scattered { turn, merges, sharing } => rule.scatter(&self.sums, turn, *merges, *sharing, to),
             Departure::Passed { cos } => rule.pass_through(&self.sums, *cos, to),

@@ -18,8 +18,14 @@ pub(super) struct Between {
 
 #[inline]
 fn weight(others: f32) -> f32 {
+    share(1.0, others)
+}
+
+/// The part that `own` has beside `others`.
+#[inline]
+fn share(own: f32, others: f32) -> f32 {
     // Infinite sums are honest zeros; a product of 0 and ∞ is not a number, and no sampler finds such a path.
-    if others.is_nan() { 0.0 } else { 1.0 / (1.0 + others) }
+    if others.is_nan() { 0.0 } else { own / (own + others) }
 }
 
 impl Rule {
@@ -89,7 +95,7 @@ impl Rule {
         let on_light = photon.vcm + h.of(at.forward) * (photon.vc + eta * farther * photon.vm);
         let image = if self.images(scatterings) { camera.image } else { 0.0 };
         let on_camera = camera.vcm + image + h.of(at.back) * (camera.vc() + eta * camera.vm());
-        weight((on_light + on_camera) / (eta * camera.shared))
+        share(eta * camera.shared, on_light + on_camera)
     }
 }
 
