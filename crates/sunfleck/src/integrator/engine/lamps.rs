@@ -46,14 +46,14 @@ pub(super) struct Lamps<'w> {
 
 impl<'w> Lamps<'w> {
     /// Follows all ways from `start`.
-    pub(super) fn look(world: &'w World<'w>, start: &Start, limits: &Limits, sampler: &mut Sampler) -> Self {
+    pub(super) fn look(world: &'w World<'w>, start: &Start, limits: Limits, sampler: &mut Sampler) -> Self {
         let now = Branch { start: *start, carries: 1.0, eta_scale: 1.0, scatterings: 0 };
         let most = limits.scatterings;
         let mut lamps = Self { world, most, now, waiting: Vec::new(), sum: Spectrum::BLACK, rays: 0 };
         loop {
             lamps.rays += 1;
             let start = lamps.now.start;
-            walk(world, &start, limits, sampler, &mut lamps);
+            walk(world, &start, &limits, sampler, &mut lamps);
             let Some(next) = lamps.brightest() else { return lamps };
             lamps.now = next;
         }
@@ -195,7 +195,7 @@ mod tests {
                 let ray = world.camera().ray(pixel.unwrap_or(raster), Vec2::ZERO).ray;
                 let start = Start { ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
                 if tree {
-                    let lamps = Lamps::look(&world, &start, &limits, &mut sampler);
+                    let lamps = Lamps::look(&world, &start, limits, &mut sampler);
                     rays += u64::from(lamps.rays);
                     f64::from(lamps.sum.max())
                 } else {

@@ -371,7 +371,7 @@ impl Prepared<'_> {
             let rays = walk(&world, &start_ray, limits, &mut ray.sampler, &mut look);
             if rule.on.hit && look.began_with_delta() {
                 // The numbers go on from those of the walk.
-                look.add_lamps(&Lamps::look(&world, &start_ray, limits, &mut ray.sampler));
+                look.add_lamps(&Lamps::look(&world, &start_ray, *limits, &mut ray.sampler));
             }
             look.finish(rays).to_rgb(job.pass.lambda) * (job.share * ray.weight)
         });
