@@ -16,11 +16,17 @@ const MATERIALS_SHOWN: usize = 20;
 /// Lights that are told of one by one; of more, only the number is.
 const LIGHTS_SHOWN: usize = 20;
 
+/// What is said at the end of a file that can be read.
+const BREAKS_RULES: &str = "the scene can be rendered, but its file breaks rules of its format";
+
+/// Fails, with all told, if a file breaks rules of its format.
 pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     let loaded = load::scene(&args.scene, &args.camera, args.compat, false)?;
     loaded.say_warnings();
     let info = Info::new(args, &loaded);
-    if args.json { console::print_json(&info) } else { console::print(&info.text(&loaded)) }
+    if args.json { console::print_json(&info) } else { console::print(&info.text(&loaded)) }?;
+    let broken = loaded.warnings().filter(Warning::is_error).count();
+    if broken == 0 { Ok(()) } else { Err(Failure::Work(anyhow::Error::msg(BREAKS_RULES))) }
 }
 
 #[derive(Serialize)]

@@ -1,5 +1,5 @@
 //! `sunfleck diff`.
-use super::values::{non_negative_f64, percent, positive_percent};
+use super::values::{non_negative_f64, percent, positive_percent, share};
 use clap::Args;
 use std::path::PathBuf;
 
@@ -33,6 +33,21 @@ pub(crate) struct DiffArgs {
     /// Let the heat map tell too dark (blue) from too bright (red)
     #[arg(long)]
     pub(crate) signed: bool,
+    /// Test whether the noise explains the differences (z-test): the variance of the reference's samples, by pixel and channel
+    #[arg(long, value_name = "FILE")]
+    pub(crate) variance: Option<PathBuf>,
+    /// Samples a pixel of the picture, for --variance [default: the passes that its file tells]
+    #[arg(long, value_name = "NUMBER", requires = "variance", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) samples: Option<u64>,
+    /// Samples a pixel of the reference, for --variance [default: so many that it has no noise]
+    #[arg(long, value_name = "NUMBER", requires = "variance", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) reference_samples: Option<u64>,
+    /// Probability that the z-test refuses anything of a picture that is right, between 0 and 100%
+    #[arg(long, value_name = "PERCENT", default_value = "1%", value_parser = share, allow_hyphen_values = true)]
+    pub(crate) significance: f64,
+    /// Fail if the z-test accepts a smaller share of the values
+    #[arg(long, value_name = "PERCENT", requires = "variance", value_parser = percent, allow_hyphen_values = true)]
+    pub(crate) min_accepted: Option<f64>,
     /// Fail if relMSE is larger
     #[arg(long, value_name = "NUMBER", value_parser = non_negative_f64, allow_hyphen_values = true)]
     pub(crate) max_relmse: Option<f64>,

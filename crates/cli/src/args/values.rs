@@ -69,6 +69,12 @@ pub(crate) fn positive_percent(text: &str) -> Result<f64, String> {
     percent(text).ok().filter(|v| *v > 0.0).ok_or_else(|| "expected a percentage of more than 0, such as 50%".into())
 }
 
+/// As [`percent`], between nothing and all.
+pub(crate) fn share(text: &str) -> Result<f64, String> {
+    let within = |v: &f64| *v > 0.0 && *v < 1.0;
+    percent(text).ok().filter(within).ok_or_else(|| "expected a percentage between 0 and 100, such as 1%".into())
+}
+
 /// A side of the picture.
 pub(crate) fn pixels(text: &str) -> Result<u32, String> {
     whole(text, 1..=MAX_SIDE).map(|v| v as u32)

@@ -1,5 +1,6 @@
 //! `sunfleck diff`: how far a picture is from its reference, and whether that is too far.
 mod limits;
+mod noise;
 mod report;
 
 use crate::{args::DiffArgs, console, destination, failure::Failure};
@@ -13,9 +14,10 @@ const GROWN: u32 = 2;
 
 pub(crate) fn run(args: &DiffArgs) -> Result<(), Failure> {
     args.heatmap.as_ref().map(|path| destination::check(path)).transpose()?;
-    let picture = read_image(&args.picture)?.image;
+    let file = read_image(&args.picture)?;
+    let picture = &file.image;
     let reference = read_image(&args.reference)?.image;
-    let mask = args.mask.as_ref().map(|path| mask_of(&read_image(path)?.image, &picture, args));
+    let mask = args.mask.as_ref().map(|path| mask_of(&read_image(path)?.image, picture, args));
     let options = CompareOptions {
         bright_factor: args.mask_lights.then_some(BRIGHT),
         bright_grow: GROWN,
@@ -23,13 +25,14 @@ pub(crate) fn run(args: &DiffArgs) -> Result<(), Failure> {
         block: args.block,
         ..CompareOptions::default()
     };
-    let comparison = compare(&picture, &reference, &options).map_err(|e| refused(&e))?;
-    let exceeded = limits::exceeded(args, &comparison);
-    let report = Report::new(args, (picture.width, picture.height), &comparison, &exceeded);
+    let comparison = compare(picture, &reference, &options).map_err(|e| refused(&e))?;
+    let noise = noise::test(args, &file, &reference, options.mask.as_deref())?;
+    let exceeded = limits::exceeded(args, &comparison, noise.as_ref());
+    let report = Report::new(args, (picture.width, picture.height), &comparison, noise, &exceeded);
     let told = if args.json { console::print_json(&report) } else { console::print(&report.text()) };
     if let Some(path) = &args.heatmap {
         let kind = if args.signed { HeatMap::Signed } else { HeatMap::Absolute };
-        let map = heat_map(&picture, &reference, kind, args.heatmap_scale as f32).map_err(|e| refused(&e))?;
+        let map = heat_map(picture, &reference, kind, args.heatmap_scale as f32).map_err(|e| refused(&e))?;
         write_image(path, &map.into(), Tone::Srgb).map_err(|e| Failure::Work(e.into()))?;
     }
     told?;

@@ -1,7 +1,7 @@
 //! What `diff` prints.
 use super::limits::{blocks_within, mean_error};
 use crate::{args::DiffArgs, table::aligned};
-use formats::compare::{Channel, Comparison};
+use formats::compare::{Channel, Comparison, ZTest};
 use serde::Serialize;
 
 /// All figures of a comparison.
@@ -25,6 +25,8 @@ pub(super) struct Report<'a> {
     relmse: f64,
     relmse_trimmed: f64,
     blocks: Blocks,
+    /// With `--variance`.
+    z_test: Option<Noise>,
     /// Limits that were exceeded, in words.
     exceeded: &'a [String],
 }
@@ -39,6 +41,16 @@ struct Blocks {
 }
 
 #[derive(Debug, Serialize)]
+struct Noise {
+    significance: f64,
+    values: usize,
+    accepted: f64,
+    /// Standard deviations that a difference may have, and that the largest has.
+    limit: f64,
+    worst: f64,
+}
+
+#[derive(Debug, Serialize)]
 struct Worst {
     x: u32,
     y: u32,
@@ -46,7 +58,16 @@ struct Worst {
 }
 
 impl<'a> Report<'a> {
-    pub(super) fn new(args: &DiffArgs, (width, height): (u32, u32), c: &Comparison, exceeded: &'a [String]) -> Self {
+    pub(super) fn new(
+        args: &DiffArgs,
+        (width, height): (u32, u32),
+        c: &Comparison,
+        z: Option<ZTest>,
+        exceeded: &'a [String],
+    ) -> Self {
+        let significance = args.significance;
+        let noise =
+            |z: ZTest| Noise { significance, values: z.values, accepted: z.accepted, limit: z.limit, worst: z.worst };
         let worst = |b: &formats::compare::Block| Worst { x: b.x, y: b.y, relative: b.relative(Channel::Grey) };
         Self {
             picture: args.picture.display().to_string(),
@@ -72,6 +93,7 @@ impl<'a> Report<'a> {
                 within: blocks_within(c, args.block_tolerance),
                 worst: c.blocks.worst(Channel::Grey).map(worst),
             },
+            z_test: z.map(noise),
             exceeded,
         }
     }
@@ -107,6 +129,18 @@ impl<'a> Report<'a> {
                 ),
             ),
         ];
-        aligned(&rows.map(|(name, value)| [name.to_owned(), value]))
+        let mut rows = rows.map(|(name, value)| [name.to_owned(), value]).to_vec();
+        if let Some(z) = &self.z_test {
+            let value = format!(
+                "{:.3}% of {} values accepted, at {}% (limit {:.2}σ, worst {:.1}σ)",
+                100.0 * z.accepted,
+                z.values,
+                100.0 * z.significance,
+                z.limit,
+                z.worst
+            );
+            rows.push(["z-test".to_owned(), value]);
+        }
+        aligned(&rows)
     }
 }

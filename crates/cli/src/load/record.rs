@@ -33,6 +33,13 @@ pub(crate) struct Warning {
     column: Option<usize>,
 }
 
+impl Warning {
+    /// Whether a rule of the format is broken.
+    pub(crate) fn is_error(&self) -> bool {
+        self.severity == "error"
+    }
+}
+
 impl From<&Diagnostic> for Warning {
     fn from(d: &Diagnostic) -> Self {
         let at = d.place.as_ref().and_then(|p| p.at.as_ref());

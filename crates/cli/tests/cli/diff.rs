@@ -89,3 +89,34 @@ fn a_heat_map_is_dark_where_pictures_agree() {
     let map = place.image("map.exr").image;
     assert!(map.data[0].iter().all(|v| v.abs() < 1e-3) && map.data[100][0] > 0.5, "{:?}", map.data[100]);
 }
+
+#[test]
+fn a_z_test_accepts_what_the_noise_of_the_samples_explains() {
+    // A sample varies by 0.01, so the mean of 100 has a standard deviation of 0.01; of 3072 values one in a hundred pictures
+    // is 4.66 of these away.
+    let place = place();
+    place.paint("variance.exr", [1e-2; 3], &[]);
+    place.paint("near.exr", [0.54; 3], &[(3, [0.56, 0.5, 0.5])]);
+    let accepted = |args: &str| {
+        let report = place.run(&format!("diff near.exr r.exr --variance variance.exr --json {args}")).json().remove(0);
+        (report["z_test"]["accepted"].as_f64().unwrap(), report["z_test"]["limit"].as_f64().unwrap())
+    };
+    let (share, limit) = accepted("--samples 100");
+    assert!((share - 3071.0 / 3072.0).abs() < 1e-9 && (limit - 4.66).abs() < 0.02, "{share} {limit}");
+    assert_eq!(accepted("--samples 100 --reference-samples 100").0, 1.0);
+    assert!(accepted("--samples 1000").0 < 0.01);
+    let limits = [("--samples 100 --min-accepted 99%", 0), ("--samples 1000 --min-accepted 99%", 1), ("", 2)];
+    for (args, code) in limits {
+        let ran = place.run(&format!("diff near.exr r.exr --variance variance.exr {args}"));
+        assert_eq!(ran.code, Some(code), "{args}: {}", ran.err);
+        assert!(code != 1 || ran.err.contains("z-test accepts"), "{}", ran.err);
+    }
+}
+
+#[test]
+fn a_picture_of_ours_tells_its_samples() {
+    let place = place();
+    assert_eq!(place.run("render ball.scn --size 8x8 --spp 4 -q -o p.exr").code, Some(0));
+    let ran = place.run("diff p.exr p.exr --variance p.exr --min-accepted 100%");
+    assert_eq!((ran.code, ran.out.contains("100.000% of 192 values accepted")), (Some(0), true), "{}", ran.err);
+}

@@ -25,7 +25,7 @@ pub use suggest::nearest;
 pub enum Severity {
     /// The input was read, but not all of it means what its author may think.
     Warning,
-    /// The input cannot be read.
+    /// The input cannot be read, or breaks a rule of its format; the latter may be among the warnings of what was read.
     Error,
 }
 

@@ -3,6 +3,9 @@
 use crate::diagnostic::{Diagnostic, Sink};
 use std::fmt::Display;
 
+/// What is said of lapses.
+const READ_ANYWAY: &str = "the file is read all the same; `--strict` refuses it";
+
 /// Makes findings about one file.
 #[derive(Clone, Debug)]
 pub(super) struct Findings {
@@ -23,13 +26,14 @@ impl Findings {
         sink.error(self.file_error(code, format!("{path}: {message}")));
     }
 
-    /// What breaks the rules of the format but has one plain meaning for a picture: an error for those who ask for it.
+    /// What breaks the rules of the format but has one plain meaning for a picture: told of as an error, but the file is read all
+    /// the same unless one is strict.
     pub(super) fn lapse(&self, sink: &mut Sink, code: &'static str, path: impl Display, message: impl Display) {
         if self.is_strict {
-            self.error(sink, code, path, message);
-        } else {
-            self.warn(sink, code, path, message);
+            return self.error(sink, code, path, message);
         }
+        let finding = || self.file_error(code, format!("{path}: {message}")).help(READ_ANYWAY);
+        sink.warn(code, finding);
     }
 
     /// What is odd, or left out.

@@ -5,8 +5,8 @@
 //! and `scene` makes surfaces, lights and a camera. Messages name places in the JSON.
 //!
 //! What glTF means is taken from its specification (Khronos Group, "glTF 2.0 Specification") and from those of the extensions
-//! in its registry. Many files in the wild break rules that no picture depends on: those are warnings, or errors with
-//! [`crate::LoadOptions::strict`].
+//! in its registry. Many files in the wild break rules that no picture depends on: those are told of as errors, and read all the
+//! same but with [`crate::LoadOptions::strict`].
 
 mod check;
 mod container;

@@ -7,9 +7,9 @@ use super::scene::Importer;
 use super::spectra::Role;
 use glam::Vec3;
 use sunfleck::bsdf::{
-    BlackMaterial, BumpMapMaterial, DielectricMaterial, DiffuseMaterial, MaskMaterial, Material, MixMaterial,
-    NormalMapMaterial, NullMaterial, PhongMaterial, PlasticMaterial, RoughConductorMaterial, RoughDielectricMaterial,
-    Roughness, ThinDielectricMaterial, TwoSidedMaterial,
+    BlackMaterial, BumpMapMaterial, DielectricMaterial, DiffuseMaterial, Facets, MaskMaterial, Material, MixMaterial,
+    NormalMapMaterial, NullMaterial, PhongMaterial, PlasticMaterial, RoughBoundary, RoughConductorMaterial,
+    RoughDielectricMaterial, RoughPlasticMaterial, Roughness, ThinDielectricMaterial, TwoSidedMaterial,
 };
 use sunfleck::scene::MaterialId;
 
@@ -170,7 +170,7 @@ impl Importer<'_, '_> {
                 let alpha = self.alpha(props)?;
                 RoughConductorMaterial { metal: self.metal(props)?, alpha }.into()
             }
-            "plastic" | "roughplastic" | "pplastic" => self.plastic(name, props)?.into(),
+            "plastic" | "roughplastic" | "pplastic" => self.plastic(name, props)?,
             "phong" => PhongMaterial {
                 diffuse: self.input(props, &["diffuse_reflectance"], Vec3::splat(0.5), Role::Reflectance)?.id,
                 specular: self.input(props, &["specular_reflectance"], Vec3::splat(0.2), Role::Reflectance)?.id,
@@ -197,30 +197,42 @@ impl Importer<'_, '_> {
         })
     }
 
-    /// Roughness. Beckmann's distribution is shown as GGX of the same roughness.
-    fn alpha(&mut self, props: &Props) -> Found<Roughness> {
-        props.ignore(&["sample_visible"]);
+    /// The kind of landscape; others than Mitsuba 3's two are shown as GGX of the same roughness.
+    fn facets(&mut self, props: &Props) -> Found<Facets> {
         let kind = props.word("distribution", "beckmann", &["beckmann", "ggx", "phong", "as"])?;
-        if kind != "ggx" {
+        if !["beckmann", "ggx"].contains(&kind) {
             self.near(&format!("distribution {kind}"), props, "the distribution `ggx` of the same roughness");
         }
+        Ok(if kind == "beckmann" { Facets::Beckmann } else { Facets::GgxSeparate })
+    }
+
+    /// Roughness.
+    fn alpha(&mut self, props: &Props) -> Found<Roughness> {
+        props.ignore(&["sample_visible"]);
+        let facets = self.facets(props)?;
         let alpha = self.scalar(props, "alpha", 0.1)?;
-        if !props.has("alpha_u") && !props.has("alpha_v") {
-            return Ok(alpha.into());
-        }
-        Ok(Roughness { u: self.scalar(props, "alpha_u", 0.1)?, v: self.scalar(props, "alpha_v", 0.1)? })
+        let (u, v) = if props.has("alpha_u") || props.has("alpha_v") {
+            (self.scalar(props, "alpha_u", 0.1)?, self.scalar(props, "alpha_v", 0.1)?)
+        } else {
+            (alpha, alpha)
+        };
+        Ok(Roughness::aligned(u, v).with(facets))
     }
 
     /// A matt base under a clear boundary.
-    fn plastic(&mut self, name: &str, props: &Props) -> Found<PlasticMaterial> {
+    fn plastic(&mut self, name: &str, props: &Props) -> Found<Material> {
         props.ignore(&["specular_sampling_weight"]);
-        Ok(PlasticMaterial {
-            diffuse: self.input(props, &["diffuse_reflectance"], Vec3::splat(0.5), Role::Reflectance)?.id,
-            specular: self.input(props, &["specular_reflectance"], Vec3::ONE, Role::Reflectance)?.id,
-            ior: indices::relative(props, "polypropylene")?,
-            alpha: if name == "plastic" { 0.0.into() } else { self.alpha(props)? },
-            nonlinear: props.boolean("nonlinear", false)?,
-        })
+        let diffuse = self.input(props, &["diffuse_reflectance"], Vec3::splat(0.5), Role::Reflectance)?.id;
+        let specular = self.input(props, &["specular_reflectance"], Vec3::ONE, Role::Reflectance)?.id;
+        let ior = indices::relative(props, "polypropylene")?;
+        let nonlinear = props.boolean("nonlinear", false)?;
+        if name == "plastic" {
+            return Ok(PlasticMaterial { diffuse, specular, ior, alpha: 0.0.into(), nonlinear }.into());
+        }
+        props.ignore(&["sample_visible"]);
+        let alpha = self.mean_of(props, "alpha", 0.1)? as f32;
+        let boundary = RoughBoundary::new(ior, alpha, self.facets(props)?);
+        Ok(RoughPlasticMaterial { diffuse, specular, boundary, nonlinear }.into())
     }
 
     /// Ward's highlights as those of Phong's model that are as wide.
@@ -281,7 +293,8 @@ impl Importer<'_, '_> {
                 NormalMapMaterial { of, map, scale: 1.0 }.into()
             }
             "bumpmap" | "bump" => {
-                let height = self.texture(picture.ok_or_else(missing)?)?.id.into();
+                let height = self.texture(picture.ok_or_else(missing)?)?.id;
+                let height = self.as_numbers(height).into();
                 BumpMapMaterial { of, height, scale: props.float("scale", 1.0)? as f32 }.into()
             }
             _ => {
@@ -329,7 +342,10 @@ impl Importer<'_, '_> {
         };
         let of = [first.material, second.material];
         let amount = match props.objects("texture")?.pop() {
-            Some(texture) if !props.has("weight") => self.texture(texture)?.id.into(),
+            Some(texture) if !props.has("weight") => {
+                let amount = self.texture(texture)?.id;
+                self.as_numbers(amount).into()
+            }
             _ => self.scalar(props, "weight", 0.5)?,
         };
         let material = self.target.builder().material(MixMaterial { of, amount });

@@ -4,12 +4,15 @@ use super::document::Found;
 use super::props::Props;
 use super::scene::Importer;
 use super::sky;
+use super::spectra::Role;
 use crate::diagnostic::Diagnostic;
 use crate::files::first_of;
 use crate::image::RgbImage32;
 use glam::{DAffine3, DMat3, DVec3, Mat3, Vec2, Vec3};
 use std::f32::consts::PI;
-use sunfleck::light::{DirectionalLight, EnvironmentLight, PointLight, ProjectionLight, Rim, SpotLight};
+use sunfleck::light::{
+    DirectionalLight, EnvironmentLight, Light, PointLight, ProjectionLight, Rim, SpotLight, SunLight,
+};
 use sunfleck::spectrum::Illuminant;
 use sunfleck::texture::{ImageTexture, Wrap};
 
@@ -204,7 +207,7 @@ impl Importer<'_, '_> {
     }
 
     fn sunsky(&mut self, name: &str, props: &Props, world: &DAffine3) -> Found<()> {
-        props.ignore(&["albedo", "stretch", "resolution", "sun_radius_scale", "sun_aperture", "complex_sun", "extend"]);
+        props.ignore(&["stretch", "resolution", "complex_sun", "extend"]);
         let is_old = props.element.is_old;
         let turn_to_world = turn(&world.matrix3);
         let from_map = if is_old { Mat3::IDENTITY } else { SKY_FROM_MAP };
@@ -219,8 +222,13 @@ impl Importer<'_, '_> {
         let scale = props.float("scale", 1.0)?;
         let (sun_scale, sky_scale) = (props.float("sun_scale", scale)?, props.float("sky_scale", scale)?);
         let world_from_map = turn_to_world * from_map;
+        let ground = if props.has("albedo") {
+            self.input(props, &["albedo"], Vec3::ZERO, Role::Reflectance)?.mean
+        } else {
+            Vec3::splat(if is_old { 0.15 } else { 0.3 })
+        };
         if name != "sun"
-            && let Some(map) = sky::panorama(sun, turbidity)
+            && let Some(map) = sky::panorama(sun, turbidity, ground)
         {
             let light = EnvironmentLight::panorama(map, Vec3::splat(sky_scale as f32), world_from_map);
             self.target.light(light.map_err(|e| props.bad(&e.to_string()))?);
@@ -228,9 +236,16 @@ impl Importer<'_, '_> {
         if name != "sky"
             && sun_scale > 0.0
             && let Some(irradiance) = sky::sunlight(sun, turbidity)
-            && let Some(light) = DirectionalLight::new(world_from_map * -sun, irradiance * sun_scale as f32)
         {
-            self.target.light(light);
+            // Across the sky, degrees.
+            let width = props.float("sun_aperture", 0.5358)? * props.float("sun_radius_scale", 1.0)?;
+            let (direction, irradiance) = (world_from_map * -sun, irradiance * sun_scale as f32);
+            let light: Option<Light> = if width > 0.0 {
+                SunLight::new(direction, (0.5 * width.to_radians()) as f32, irradiance).map(Light::from)
+            } else {
+                DirectionalLight::new(direction, irradiance).map(Light::from)
+            };
+            light.into_iter().for_each(|light| self.target.light(light));
         }
         Ok(())
     }

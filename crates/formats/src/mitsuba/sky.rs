@@ -1,16 +1,19 @@
-//! Daylight: the sky of Preetham, Shirley & Smits 1999, "A Practical Analytic Model for Daylight", and the sun through the
-//! same air. Directions have y up, north at -z and east at x.
+//! Daylight: the sky of Hosek & Wilkie 2012, "An Analytic Model for Full Spectral Sky-Dome Radiance", as Mitsuba has it, and the
+//! sun through the air of Preetham, Shirley & Smits 1999, "A Practical Analytic Model for Daylight". Directions have y up, north
+//! at -z and east at x.
 //!
-//! Values are luminances over 683 lm/W and the 106.86 nm under the eye's response curve: radiance in W/(m²·sr·nm), as
-//! Mitsuba's `sunsky` has it (which follows the model of Hosek & Wilkie, in colours a little different).
+//! Values are luminances over 683 lm/W and the 106.86 nm under the eye's response curve: radiance in W/(m²·sr·nm), Mitsuba's.
 
-use glam::{DVec3, Mat3, Vec3};
+use glam::{DVec3, Vec3};
+use hw_skymodel::rgb::{Channel, SkyParams, SkyState};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use sunfleck::spectrum::{Curve, Illuminant};
 use sunfleck::texture::{ImageTexture, Wrap};
 
+/// nm under the eye's response curve.
+const EYE: f64 = 106.86;
 /// From cd/m² to the units of this room.
-const PER_CANDELA: f64 = 1.0 / (683.0 * 106.86);
+const PER_CANDELA: f64 = 1.0 / (683.0 * EYE);
 /// Illuminance of the sun outside of the air, lux (CIE 1978, "luminous solar constant").
 const SUN: f64 = 128_000.0;
 const SUN_KELVIN: f64 = 5778.0;
@@ -48,84 +51,31 @@ pub(super) fn sun_at(moment: &Moment) -> Vec3 {
     DVec3::new(east, up, -north).as_vec3()
 }
 
-/// The sky over a sun in the unit direction `sun` in air of some turbidity (1 to 10; 3 is clear), in longitude and
-/// latitude; nothing below the horizon. `None` while the sun is down.
-pub(super) fn panorama(sun: Vec3, turbidity: f64) -> Option<ImageTexture> {
-    let sun = sun.as_dvec3();
+/// The sky over a sun in the unit direction `sun`, in air of some turbidity (1 to 10; 3 is clear) over ground of an albedo, in
+/// longitude and latitude; nothing below the horizon. `None` while the sun is down.
+pub(super) fn panorama(sun: Vec3, turbidity: f64, ground: Vec3) -> Option<ImageTexture> {
     if sun.y <= 0.0 {
         return None;
     }
-    let air = Air::new(turbidity, sun.y.acos());
+    let elevation = sun.y.asin().clamp(0.0, std::f32::consts::FRAC_PI_2);
+    let albedo = ground.clamp(Vec3::ZERO, Vec3::ONE).to_array();
+    let sky = SkyState::new(&SkyParams { elevation, turbidity: turbidity.clamp(1.0, 10.0) as f32, albedo }).ok()?;
     let pixel = |i: usize| {
         let theta = PI * ((i / COLUMNS) as f64 + 0.5) / ROWS as f64;
         let phi = TAU * ((i % COLUMNS) as f64 + 0.5) / COLUMNS as f64 - PI;
         let d = DVec3::new(theta.sin() * phi.cos(), theta.cos(), theta.sin() * phi.sin());
-        if theta < FRAC_PI_2 { air.colour(theta, d.dot(sun).clamp(-1.0, 1.0)) } else { Vec3::ZERO }
+        if theta >= FRAC_PI_2 {
+            return Vec3::ZERO;
+        }
+        let gamma = d.dot(sun.as_dvec3()).clamp(-1.0, 1.0).acos();
+        let value = |c| sky.radiance(theta as f32, gamma as f32, c).max(0.0) / EYE as f32;
+        Vec3::new(value(Channel::R), value(Channel::G), value(Channel::B))
     };
     ImageTexture::new(COLUMNS, ROWS, (0..COLUMNS * ROWS).map(pixel).collect(), Wrap::Repeat)
 }
 
-/// The coefficients of one turbidity and one height of the sun.
-struct Air {
-    /// Perez's A to E for luminance Y and chromaticities x and y.
-    perez: [[f64; 5]; 3],
-    /// Y (cd/m²), x and y at the zenith over what Perez's function gives there.
-    zenith: [f64; 3],
-}
-
-impl Air {
-    fn new(t: f64, theta_sun: f64) -> Self {
-        // Appendix A.2.
-        let linear = |rows: [[f64; 2]; 5]| rows.map(|[slope, constant]| slope * t + constant);
-        let perez = [
-            linear([[0.1787, -1.4630], [-0.3554, 0.4275], [-0.0227, 5.3251], [0.1206, -2.5771], [-0.0670, 0.3703]]),
-            linear([[-0.0193, -0.2592], [-0.0665, 0.0008], [-0.0004, 0.2125], [-0.0641, -0.8989], [-0.0033, 0.0452]]),
-            linear([[-0.0167, -0.2608], [-0.0950, 0.0092], [-0.0079, 0.2102], [-0.0441, -1.6537], [-0.0109, 0.0529]]),
-        ];
-        let s = theta_sun;
-        let cubic = |rows: [[f64; 4]; 3]| {
-            let row = |c: [f64; 4]| ((c[0] * s + c[1]) * s + c[2]) * s + c[3];
-            (row(rows[0]) * t + row(rows[1])) * t + row(rows[2])
-        };
-        let chi = (4.0 / 9.0 - t / 120.0) * (PI - 2.0 * s);
-        let at_zenith = [
-            1000.0 * ((4.0453 * t - 4.9710) * chi.tan() - 0.2155 * t + 2.4192).max(0.0),
-            cubic([
-                [0.00166, -0.00375, 0.00209, 0.0],
-                [-0.02903, 0.06377, -0.03202, 0.00394],
-                [0.11693, -0.21196, 0.06052, 0.25886],
-            ]),
-            cubic([
-                [0.00275, -0.00610, 0.00317, 0.0],
-                [-0.04214, 0.08970, -0.04153, 0.00516],
-                [0.15346, -0.26756, 0.06670, 0.26688],
-            ]),
-        ];
-        let zenith = std::array::from_fn(|i| at_zenith[i] / distribution(&perez[i], 1.0, s.cos()));
-        Self { perez, zenith }
-    }
-
-    /// Linear sRGB at the angle `theta` from the zenith, where `cos_gamma` is the cosine of the angle to the sun.
-    fn colour(&self, theta: f64, cos_gamma: f64) -> Vec3 {
-        let value = |i: usize| self.zenith[i] * distribution(&self.perez[i], theta.cos().max(1e-3), cos_gamma);
-        let (luminance, x, y) = (value(0).max(0.0) * PER_CANDELA, value(1), value(2).max(1e-3));
-        let xyz = luminance / y * DVec3::new(x, y, 1.0 - x - y);
-        // IEC 61966-2-1.
-        let rgb_from_xyz = Mat3::from_cols_array(&[
-            3.240_97, -0.969_244, 0.055_630, -1.537_383, 1.875_968, -0.203_977, -0.498_611, 0.041_555, 1.056_972,
-        ]);
-        (rgb_from_xyz * xyz.as_vec3()).max(Vec3::ZERO)
-    }
-}
-
-/// Perez's function of the sky (Perez et al. 1993), equation 3.
-fn distribution([a, b, c, d, e]: &[f64; 5], cos_theta: f64, cos_gamma: f64) -> f64 {
-    let gamma = cos_gamma.acos();
-    (1.0 + a * (b / cos_theta).exp()) * (1.0 + c * (d * gamma).exp() + e * cos_gamma * cos_gamma)
-}
-
 /// Irradiance of the sun's light across its direction, in the units of this room, after air molecules and haze have scattered
-/// some of it away (appendix A.1; ozone and water, some percent, are left out). `None` while the sun is down.
+/// some of it away (Preetham et al. 1999, appendix A.1; ozone and water, some percent, are left out). `None` while the sun is down.
 pub(super) fn sunlight(sun: Vec3, turbidity: f64) -> Option<Illuminant> {
     let cos = f64::from(sun.y);
     if cos <= 0.0 {
@@ -168,7 +118,7 @@ mod tests {
         // Sun at 45 degrees, turbidity 3: some 10 to 35 klx from the sky, haze around the sun included, and 60 to 100 klx
         // across the sun's rays.
         let sun = Vec3::new(0.0, 1.0, -1.0).normalize();
-        let map = panorama(sun, 3.0).unwrap();
+        let map = panorama(sun, 3.0, Vec3::splat(0.3)).unwrap();
         let mut sum = 0.0;
         for i in 0..COLUMNS * ROWS / 2 {
             let theta = PI * ((i / COLUMNS) as f64 + 0.5) / ROWS as f64;
@@ -181,10 +131,8 @@ mod tests {
         let direct = f64::from(direct) / PER_CANDELA;
         assert!((60_000.0..105_000.0).contains(&direct), "{direct} lx");
         let zenith = map.pixel(0, 0);
-        // Appendix A.2 by hand: 7.32 kcd/m².
-        let luminance = f64::from(zenith.dot(Vec3::new(0.2126, 0.7152, 0.0722))) / PER_CANDELA;
-        assert!((luminance / 7320.0 - 1.0).abs() < 0.02, "{luminance}");
+        assert!(panorama(sun, 3.0, Vec3::ONE).unwrap().pixel(0, 0).y > 1.05 * zenith.y, "the ground lights the air");
         assert!(zenith.z > 1.5 * zenith.x, "not blue: {zenith}");
-        assert!(panorama(-sun, 3.0).is_none() && sunlight(-sun, 3.0).is_none());
+        assert!(panorama(-sun, 3.0, Vec3::ZERO).is_none() && sunlight(-sun, 3.0).is_none());
     }
 }

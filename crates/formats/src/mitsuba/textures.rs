@@ -102,7 +102,24 @@ impl Importer<'_, '_> {
         }
         let number = self.document.resolve(number)?;
         let made = self.operand(number, Role::Index)?;
-        Ok(if made.varies { made.id.into() } else { Scalar::Constant(made.mean.x) })
+        Ok(if made.varies { self.as_numbers(made.id).into() } else { Scalar::Constant(made.mean.x) })
+    }
+
+    /// A texture that is asked for numbers instead of colours: Mitsuba's checkerboards then have their squares the other way
+    /// about.
+    pub(super) fn as_numbers(&mut self, id: TextureId) -> TextureId {
+        let texture = match self.target.builder().parts().textures[id.0 as usize] {
+            Texture::Checkerboard(c) => Texture::Checkerboard(Checkerboard { of: [c.of[1], c.of[0]], ..c }),
+            Texture::Mapped(m) => {
+                let of = self.as_numbers(m.of);
+                if of == m.of {
+                    return id;
+                }
+                Texture::Mapped(Mapped { of, ..m })
+            }
+            _ => return id,
+        };
+        self.target.builder().texture(texture)
     }
 
     /// The texture of an element, made once.

@@ -89,5 +89,5 @@ fn brushed(roughness: Scalar, amount: f32, target: &mut Target) -> Roughness {
         return roughness.into();
     }
     let quarter = (1.0 - 0.9 * amount.clamp(0.0, 1.0)).powf(0.25);
-    Roughness { u: scaled(roughness, 1.0 / quarter, target), v: scaled(roughness, quarter, target) }
+    Roughness::aligned(scaled(roughness, 1.0 / quarter, target), scaled(roughness, quarter, target))
 }

@@ -33,7 +33,7 @@ impl Importer<'_> {
         let names = ["conductor.roughness", "conductor.uroughness", "conductor.vroughness"];
         let alpha = self.roughness(params, names, 0.0)?.unwrap_or(SMOOTH.into());
         let names = ["interface.roughness", "interface.uroughness", "interface.vroughness"];
-        let Roughness { u: coat_alpha, v } = self.roughness(params, names, 0.0)?.unwrap_or(SMOOTH.into());
+        let Roughness { u: coat_alpha, v, .. } = self.roughness(params, names, 0.0)?.unwrap_or(SMOOTH.into());
         if coat_alpha != v {
             self.near("anisotropic coats", params, "as rough along as across");
         }
@@ -101,7 +101,7 @@ impl Importer<'_> {
 
     /// Perceived roughness, of which alpha is the square.
     fn perceived(&mut self, alpha: Option<Roughness>) -> Roughness {
-        let Some(Roughness { u, v }) = alpha else { return SMOOTH.into() };
+        let Some(Roughness { u, v, .. }) = alpha else { return SMOOTH.into() };
         let [u, v] = [u, v].map(|s| match s {
             Scalar::Constant(a) => Scalar::Constant(a.max(0.0).sqrt()),
             Scalar::Texture(id) => match self.mapped_values(id, &|a: f32| a.max(0.0).sqrt(), 0) {
@@ -109,7 +109,7 @@ impl Importer<'_> {
                 None => Scalar::Constant(0.3),
             },
         });
-        Roughness { u, v }
+        Roughness::aligned(u, v)
     }
 
     /// Paper and leaves: version 4 has a number to multiply both by, version 3 a colour.

@@ -9,7 +9,7 @@ use super::params::{Found, Params};
 use super::spectra::Role;
 use glam::{DMat3, DVec3, Mat3, Vec3};
 use std::f32::consts::PI;
-use sunfleck::light::{DirectionalLight, EnvironmentLight, PointLight, Rim, Sides, SpotLight};
+use sunfleck::light::{DirectionalLight, EnvironmentLight, Light, PointLight, Rim, Sides, SpotLight, SunLight};
 use sunfleck::spectrum::Illuminant;
 
 const LIGHTS: [&str; 7] = ["distant", "goniometric", "infinite", "point", "projection", "spot", "exinfinite"];
@@ -88,7 +88,13 @@ impl Importer<'_> {
         let from = params.vec3("from")?.unwrap_or(DVec3::ZERO);
         let to = params.vec3("to")?.unwrap_or(DVec3::Z);
         let direction = self.state.world_from_object().transform_vector3(to - from).as_vec3();
-        match DirectionalLight::new(direction, irradiance) {
+        // Our own word for a disc.
+        let radius = params.maybe_number("radius")?.filter(|r| *r > 0.0);
+        let light: Option<Light> = match radius {
+            Some(radius) => SunLight::new(direction, radius as f32, irradiance).map(Light::from),
+            None => DirectionalLight::new(direction, irradiance).map(Light::from),
+        };
+        match light {
             Some(light) => self.target.light(light),
             None => return Err(params.bad("pbrt::value", "a distant light needs a direction: `from` is `to`")),
         }

@@ -23,6 +23,7 @@ mod lexer;
 mod lights;
 mod materials;
 mod meshes;
+mod mitsubas;
 mod ours;
 mod params;
 mod picture;

@@ -13,15 +13,18 @@ use sunfleck::scene::MaterialId;
 /// What our own models begin with.
 pub(super) const PREFIX: &str = "sunfleck-";
 
-const MODELS: [&str; 10] = [
+const MODELS: [&str; 13] = [
     "bumpmap",
     "cooktorrance",
+    "disney",
+    "disneythin",
     "mask",
     "normalmap",
     "nrenderer-phong",
     "phong",
     "plastic",
     "principled",
+    "roughplastic",
     "turned",
     "twosided",
 ];
@@ -31,7 +34,7 @@ impl Importer<'_> {
     pub(super) fn our_model(&mut self, name: &str, params: &Params) -> Found<Cover> {
         // What stands there for pbrt.
         params.ignore(&["reflectance", "roughness", "uroughness", "vroughness", "remaproughness", "eta", "k"]);
-        params.ignore(&["materials", "amount", "displacement", "Kr", "Kt", "tint"]);
+        params.ignore(&["materials", "amount", "displacement", "Kr", "Kt", "tint", "scale"]);
         let model: Material = match name {
             "phong" | "nrenderer-phong" => {
                 let diffuse = self.spectrum(params, &["Kd"], Vec3::ZERO)?;
@@ -85,6 +88,9 @@ impl Importer<'_> {
                 }
                 .into()
             }
+            "roughplastic" => self.rough_plastic(params)?.into(),
+            "disney" => self.our_disney(params)?.into(),
+            "disneythin" => self.our_disney_thin(params)?.into(),
             "mask" => {
                 let of = self.part(params, "of")?;
                 MaskMaterial { of, opacity: self.scalar(params, "opacity", 1.0)? }.into()
@@ -125,11 +131,11 @@ impl Importer<'_> {
 
     /// Roughness along and across.
     fn both(&mut self, params: &Params, [u, v]: [&'static str; 2]) -> Found<Roughness> {
-        Ok(Roughness { u: self.scalar(params, u, 0.0)?, v: self.scalar(params, v, 0.0)? })
+        Ok(Roughness::aligned(self.scalar(params, u, 0.0)?, self.scalar(params, v, 0.0)?))
     }
 
     /// A number, or a texture of numbers.
-    fn scalar(&mut self, params: &Params, name: &'static str, default: f64) -> Found<Scalar> {
+    pub(super) fn scalar(&mut self, params: &Params, name: &'static str, default: f64) -> Found<Scalar> {
         match params.get(name).cloned() {
             Some(param) if param.kind == "texture" => Ok(self.texture_of(&param)?.into()),
             _ => Ok(Scalar::Constant(params.number(name, default)? as f32)),

@@ -1,6 +1,7 @@
 //! Roughness: pbrt's numbers and textures as the roughness of GGX.
 
 use super::directives::Importer;
+use super::mitsubas::facets;
 use super::params::{Found, Params};
 use glam::Vec3;
 use sunfleck::bsdf::{Roughness, Scalar, TextureId};
@@ -34,7 +35,8 @@ impl Importer<'_> {
         let v = self.rough(params, names[2], &alpha)?.or(both);
         let default = if default > 0.0 { alpha(default as f32) } else { 0.0 };
         let [u, v] = [u, v].map(|r| r.unwrap_or(Scalar::Constant(default)));
-        Ok((u != Scalar::Constant(0.0) || v != Scalar::Constant(0.0)).then_some(Roughness { u, v }))
+        let rough = Roughness::aligned(u, v).with(facets(params)?);
+        Ok((u != Scalar::Constant(0.0) || v != Scalar::Constant(0.0)).then_some(rough))
     }
 
     fn rough(&mut self, params: &Params, name: &'static str, alpha: &impl Fn(f32) -> f32) -> Found<Option<Scalar>> {

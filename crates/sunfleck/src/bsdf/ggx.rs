@@ -67,6 +67,11 @@ impl Ggx {
         let (x, y) = (self.alpha.x * x, self.alpha.y * y);
         (x * x + y * y + z * z).sqrt()
     }
+    /// Area of the microfacets that face `w` as `w` sees it, per area of surface: `|cos θ|·(1 + Λ)`.
+    #[inline]
+    pub(super) fn area(self, w: Local) -> f32 {
+        0.5 * (w.abs_cos_theta() + self.stretched(w))
+    }
     /// Fraction of the microfacets facing `w` that `w` sees: `1/(1 + Λ)` (Heitz 2014, eq. 57).
     #[inline]
     pub fn g1(self, w: Local) -> f32 {

@@ -7,10 +7,12 @@
 //!
 //! Materials may also be laid over others, to choose between them, hide them or bend their normals: see [`cover`].
 //!
-//! The mathematics that models share is in [`fresnel`] (how much a boundary reflects), [`ggx`] (rough boundaries) and
-//! `cosine_lobe` (Phong's highlights).
+//! The mathematics that models share is in [`fresnel`] (how much a boundary reflects), [`ggx`] (rough boundaries),
+//! `beckmann` and `facets` (other ones), and `cosine_lobe` (Phong's highlights).
 mod albedo;
+mod beckmann;
 mod black;
+mod burley;
 mod coated_conductor;
 mod conductor;
 mod cook_torrance;
@@ -19,6 +21,9 @@ pub mod cover;
 mod dielectric;
 mod diffuse;
 mod diffuse_transmission;
+mod disney;
+mod disney_thin;
+mod facets;
 pub mod fresnel;
 pub mod ggx;
 mod mirror;
@@ -29,6 +34,7 @@ mod plastic;
 mod principled;
 mod rough_conductor;
 mod rough_dielectric;
+mod rough_plastic;
 mod roughness;
 mod sheen;
 mod thin_dielectric;
@@ -40,6 +46,9 @@ pub use cook_torrance::{CookTorrance, CookTorranceMaterial};
 pub use dielectric::{Dielectric, DielectricMaterial};
 pub use diffuse::{Diffuse, DiffuseMaterial};
 pub use diffuse_transmission::{DiffuseTransmission, DiffuseTransmissionMaterial};
+pub use disney::{Disney, DisneyMaterial};
+pub use disney_thin::{DisneyThin, DisneyThinMaterial};
+pub use facets::{Facets, Landscape};
 pub use mirror::{Mirror, MirrorMaterial};
 pub use nrenderer_phong::{NRendererPhong, NRendererPhongMaterial};
 pub use phong::{Phong, PhongMaterial};
@@ -47,6 +56,7 @@ pub use plastic::{Plastic, PlasticMaterial};
 pub use principled::{Principled, PrincipledMaterial};
 pub use rough_conductor::{RoughConductor, RoughConductorMaterial};
 pub use rough_dielectric::{RoughDielectric, RoughDielectricMaterial};
+pub use rough_plastic::{RoughBoundary, RoughPlastic, RoughPlasticMaterial};
 pub use roughness::Roughness;
 pub use thin_dielectric::{ThinDielectric, ThinDielectricMaterial};
 
@@ -259,7 +269,10 @@ models![
     NRendererPhong / NRendererPhongMaterial,
     CookTorrance / CookTorranceMaterial,
     Plastic / PlasticMaterial,
+    RoughPlastic / RoughPlasticMaterial,
     Principled / PrincipledMaterial,
+    Disney / DisneyMaterial,
+    DisneyThin / DisneyThinMaterial,
     Black / BlackMaterial,
 ];
 

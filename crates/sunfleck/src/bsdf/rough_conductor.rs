@@ -1,8 +1,7 @@
-//! Brushed, sand-blasted or worn metal: a GGX landscape of metal facets.
+//! Brushed, sand-blasted or worn metal: a landscape of metal facets.
 use super::{
     Bsdf, BsdfSample, Conductor, ConductorMaterial, Lookup, Model, Roughness, Scatter, TextureId, Transport,
-    ggx::{Ggx, reflect_up},
-    seen_from,
+    facets::Landscape, ggx::reflect_up, seen_from,
 };
 use crate::{math::Local, spectrum::Spectrum};
 use glam::Vec2;
@@ -13,20 +12,19 @@ use glam::Vec2;
 pub struct RoughConductorMaterial {
     /// The metal.
     pub metal: ConductorMaterial,
-    /// GGX roughness in [0, 1]. Below [`Ggx::MIN_ALPHA`] the surface is taken as smooth.
+    /// Roughness in [0, 1]. Below [`super::ggx::Ggx::MIN_ALPHA`] the surface is taken as smooth.
     pub alpha: Roughness,
 }
 
 impl Model for RoughConductorMaterial {
     type Closure = Bsdf;
     const NAME: &'static str = "roughconductor";
-    const ABOUT: &'static str =
-        "rough metal: `eta` + i·`k` by channel under GGX roughness `alpha` (0 polished, 1 matt)";
+    const ABOUT: &'static str = "rough metal: `eta` + i·`k` by channel under roughness `alpha` (0 polished, 1 matt)";
     #[inline]
     fn resolve(&self, at: &Lookup) -> Bsdf {
         let metal = self.metal.resolve(at);
-        match self.alpha.ggx(at) {
-            Some(ggx) => RoughConductor { metal, ggx }.into(),
+        match self.alpha.landscape(at) {
+            Some(facets) => RoughConductor { metal, facets }.into(),
             None => metal.into(),
         }
     }
@@ -42,20 +40,20 @@ impl Model for RoughConductorMaterial {
 #[derive(Clone, Copy, Debug)]
 pub struct RoughConductor {
     metal: Conductor,
-    ggx: Ggx,
+    facets: Landscape,
 }
 
 impl Scatter for RoughConductor {
     #[inline]
     fn eval(&self, wo: Local, wi: Local, _: Transport) -> Spectrum {
-        match self.ggx.glint(seen_from(wo, wo), seen_from(wo, wi)) {
+        match self.facets.glint(seen_from(wo, wo), seen_from(wo, wi)) {
             Some(g) => self.metal.fresnel(g.cos) * g.f,
             None => Spectrum::BLACK,
         }
     }
     #[inline]
     fn pdf(&self, wo: Local, wi: Local) -> f32 {
-        self.ggx.glint(seen_from(wo, wo), seen_from(wo, wi)).map_or(0.0, |g| g.pdf)
+        self.facets.glint(seen_from(wo, wo), seen_from(wo, wi)).map_or(0.0, |g| g.pdf)
     }
     #[inline]
     fn sample(&self, wo: Local, _: f32, u: Vec2, _: Transport) -> Option<BsdfSample> {
@@ -63,9 +61,9 @@ impl Scatter for RoughConductor {
         if up.cos_theta() <= 0.0 {
             return None;
         }
-        let wi = reflect_up(up, self.ggx.sample_visible(up, u))?;
-        let g = self.ggx.glint(up, wi)?;
-        let weight = self.metal.fresnel(g.cos) * self.ggx.shadowing(up, wi);
+        let wi = reflect_up(up, self.facets.sample_visible(up, u))?;
+        let g = self.facets.glint(up, wi)?;
+        let weight = self.metal.fresnel(g.cos) * self.facets.shadowing(up, wi);
         BsdfSample::scattered(seen_from(wo, wi), weight, g.pdf)
     }
     #[inline]

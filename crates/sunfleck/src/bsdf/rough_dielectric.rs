@@ -1,8 +1,7 @@
-//! Ground or frosted glass: a GGX landscape of clear facets.
+//! Ground or frosted glass: a landscape of clear facets.
 use super::{
-    Bsdf, BsdfSample, Dielectric, DielectricMaterial, Lookup, Model, Roughness, Scatter, TextureId, Transport, fresnel,
-    ggx::{Ggx, reflect_up},
-    seen_from,
+    Bsdf, BsdfSample, Dielectric, DielectricMaterial, Lookup, Model, Roughness, Scatter, TextureId, Transport,
+    facets::Landscape, fresnel, ggx::reflect_up, seen_from,
 };
 use crate::{math::Local, spectrum::Spectrum};
 use glam::Vec2;
@@ -12,7 +11,7 @@ use glam::Vec2;
 pub struct RoughDielectricMaterial {
     /// The media and tints.
     pub glass: DielectricMaterial,
-    /// GGX roughness in [0, 1]. The boundary is taken as smooth below [`Ggx::MIN_ALPHA`], and also where the blur it
+    /// Roughness in [0, 1]. The boundary is taken as smooth below [`super::ggx::Ggx::MIN_ALPHA`], and also where the blur it
     /// gives to refracted light, `alpha·|eta − 1|`, is below 10⁻⁴ (nearly equal indices: f32 could not tell which facet
     /// had bent the light).
     pub alpha: Roughness,
@@ -22,13 +21,13 @@ impl Model for RoughDielectricMaterial {
     type Closure = Bsdf;
     const NAME: &'static str = "roughdielectric";
     const ABOUT: &'static str =
-        "frosted glass: `eta` as for dielectric, GGX roughness `alpha` (0 clear, 0.1 satin, 0.5 milky)";
+        "frosted glass: `eta` as for dielectric, roughness `alpha` (0 clear, 0.1 satin, 0.5 milky)";
     #[inline]
     fn resolve(&self, at: &Lookup) -> Bsdf {
         let glass = self.glass.resolve(at);
-        let blurs = |ggx: &Ggx| ggx.alpha().max_element() * (glass.eta.hero() - 1.0).abs() >= 1e-4;
-        match self.alpha.ggx(at).filter(blurs) {
-            Some(ggx) => RoughDielectric { glass, ggx }.into(),
+        let blurs = |facets: &Landscape| facets.alpha().max_element() * (glass.eta.hero() - 1.0).abs() >= 1e-4;
+        match self.alpha.landscape(at).filter(blurs) {
+            Some(facets) => RoughDielectric { glass, facets }.into(),
             None => glass.into(),
         }
     }
@@ -44,24 +43,14 @@ impl Model for RoughDielectricMaterial {
 }
 
 /// Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", with visible normals. Transmission uses
-/// the paper's separable masking (eq. 23); reflection the height-correlated one, as the metals here do.
+/// the paper's separable masking (eq. 23); reflection that of the landscape, as the metals here do.
 ///
 /// Where wavelengths are bent differently, a direction still carries all of them, each by its own facet: one of the lanes
 /// is drawn to choose the direction, and the density is the mean of the lanes' densities (the balance heuristic).
 #[derive(Clone, Copy, Debug)]
 pub struct RoughDielectric {
     glass: Dielectric,
-    ggx: Ggx,
-}
-
-/// A refraction by one facet, but for the share 1 − F and the squeeze of radiance.
-struct Passage {
-    /// Reflected fraction at the facet.
-    fresnel: f32,
-    /// Scattering function for flux, 1/sr.
-    f: f32,
-    /// Density (1/sr) of `wi` when visible micronormals are drawn.
-    pdf: f32,
+    facets: Landscape,
 }
 
 impl RoughDielectric {
@@ -70,45 +59,23 @@ impl RoughDielectric {
     fn sample_alike(&self, wo: Local, u_lobe: f32, u: Vec2, mode: Transport) -> Option<BsdfSample> {
         let up = seen_from(wo, wo);
         let eta = self.glass.eta_beyond(wo);
-        let m = self.ggx.sample_visible(up, u);
+        let m = self.facets.sample_visible(up, u);
         let cos = up.dot(m).clamp(0.0, 1.0);
         let boundary = fresnel::dielectric(cos, eta);
         let fresnel = boundary.reflectance();
         let prob = self.glass.prob_reflect(fresnel);
         if u_lobe < prob {
             let wi = reflect_up(up, m)?;
-            let weight = self.glass.reflectance * (fresnel / prob * self.ggx.shadowing(up, wi));
-            return BsdfSample::scattered(seen_from(wo, wi), weight, prob * self.ggx.glint(up, wi)?.pdf);
+            let weight = self.glass.reflectance * (fresnel / prob * self.facets.shadowing(up, wi));
+            return BsdfSample::scattered(seen_from(wo, wi), weight, prob * self.facets.glint(up, wi)?.pdf);
         }
         // Snell's law in vectors (Walter et al. 2007, eq. 40).
         let wi = Local(((cos / eta - boundary.cos_t) * m.0 - up.0 / eta).normalize());
-        let p = self.passage(up, wi, eta)?;
-        let carried = (1.0 - fresnel) / (1.0 - prob) * self.ggx.g1(wi);
+        let p = self.facets.passage(up, wi, eta)?;
+        let carried = (1.0 - fresnel) / (1.0 - prob) * self.facets.g1(wi);
         let weight = self.glass.transmission(eta, mode) * carried;
         let s = BsdfSample::scattered(seen_from(wo, wi), weight, (1.0 - prob) * p.pdf)?;
         Some(BsdfSample { eta, ..s })
-    }
-    /// The refraction from `up`, above the surface, to `wi`, below it; `None` if no visible facet does that. `eta` is η
-    /// below over η above, as `up` sees it.
-    #[inline]
-    fn passage(&self, up: Local, wi: Local, eta: f32) -> Option<Passage> {
-        if up.cos_theta() <= 0.0 || wi.cos_theta() >= 0.0 {
-            return None;
-        }
-        // Walter et al. 2007, eq. 16, turned to the upper side (as it stands it points into the thinner medium).
-        let m = (up.0 + eta * wi.0).try_normalize()?;
-        let m = Local(m * 1f32.copysign(m.z));
-        let (cos, cos_t) = (up.dot(m), -wi.dot(m));
-        if cos <= 0.0 || cos_t <= 0.0 {
-            return None;
-        }
-        // dm/dwi = η² |wi·m| / (wo·m + η wi·m)² (eq. 17).
-        let squeeze = cos - eta * cos_t;
-        let jacobian = eta * eta * cos_t / (squeeze * squeeze);
-        let pdf = self.ggx.pdf_visible(up, m) * jacobian;
-        // f cos θi = pdf · G₂/G₁(wo), and with separable masking that ratio is G₁(wi) (eqs. 21, 23).
-        let fresnel = fresnel::between(cos, cos_t, eta).reflectance();
-        Some(Passage { fresnel, f: pdf * self.ggx.g1(wi) / wi.abs_cos_theta(), pdf })
     }
 }
 
@@ -116,23 +83,24 @@ impl Scatter for RoughDielectric {
     #[inline]
     fn eval(&self, wo: Local, wi: Local, mode: Transport) -> Spectrum {
         let (up, wi) = (seen_from(wo, wo), seen_from(wo, wi));
-        if let Some(g) = self.ggx.glint(up, wi) {
+        if let Some(g) = self.facets.glint(up, wi) {
             let fresnel = self.glass.by_lane(wo, |eta| fresnel::dielectric(g.cos, eta).reflectance());
             return self.glass.reflectance * (fresnel * g.f);
         }
         let squeeze = |eta: f32| if mode == Transport::Radiance { 1.0 / (eta * eta) } else { 1.0 };
-        let f = |eta| self.passage(up, wi, eta).map_or(0.0, |p| squeeze(eta) * p.f * (1.0 - p.fresnel));
+        let f = |eta| self.facets.passage(up, wi, eta).map_or(0.0, |p| squeeze(eta) * p.f * (1.0 - p.fresnel));
         self.glass.transmittance * self.glass.by_lane(wo, f)
     }
     #[inline]
     fn pdf(&self, wo: Local, wi: Local) -> f32 {
         let (up, wi) = (seen_from(wo, wo), seen_from(wo, wi));
         let prob_reflect = |fresnel| self.glass.prob_reflect(fresnel);
-        let by_lane = if let Some(g) = self.ggx.glint(up, wi) {
+        let by_lane = if let Some(g) = self.facets.glint(up, wi) {
             self.glass.by_lane(wo, |eta| g.pdf * prob_reflect(fresnel::dielectric(g.cos, eta).reflectance()))
         } else {
-            self.glass
-                .by_lane(wo, |eta| self.passage(up, wi, eta).map_or(0.0, |p| p.pdf * (1.0 - prob_reflect(p.fresnel))))
+            self.glass.by_lane(wo, |eta| {
+                self.facets.passage(up, wi, eta).map_or(0.0, |p| p.pdf * (1.0 - prob_reflect(p.fresnel)))
+            })
         };
         by_lane.mean()
     }
@@ -146,7 +114,7 @@ impl Scatter for RoughDielectric {
         }
         let lane = (4.0 * u_lobe) as usize & 3;
         let eta = Spectrum::splat(self.glass.eta.lanes()[lane]);
-        let alone = Self { glass: Dielectric { eta, ..self.glass }, ggx: self.ggx };
+        let alone = Self { glass: Dielectric { eta, ..self.glass }, facets: self.facets };
         let s = alone.sample_alike(wo, (4.0 * u_lobe).fract(), u, mode)?;
         let pdf = self.pdf(wo, s.wi);
         let weight = self.eval(wo, s.wi, mode) * (s.wi.abs_cos_theta() / pdf);

@@ -11,6 +11,7 @@ mod panorama;
 mod point;
 mod projection;
 mod spot;
+mod sun;
 mod table;
 
 pub use area::{AreaLight, Sides};
@@ -20,6 +21,7 @@ pub use goniometric::GoniometricLight;
 pub use point::PointLight;
 pub use projection::{ProjectionError, ProjectionLight};
 pub use spot::{Rim, SpotError, SpotLight};
+pub use sun::SunLight;
 pub use table::LightTable;
 
 use crate::{
@@ -264,6 +266,7 @@ lights![
     Environment(EnvironmentLight),
     Goniometric(GoniometricLight),
     Projection(ProjectionLight),
+    Sun(SunLight),
 ];
 
 impl AreaSample {

@@ -32,9 +32,9 @@ impl SceneBuilder {
             ThinDielectricMaterial { eta: t.ior, reflectance, transmittance: t.color }.into()
         } else {
             let glass = DielectricMaterial { eta: t.ior, reflectance, transmittance: t.color };
-            let Roughness { u, v } = opaque.roughness;
+            let Roughness { u, v, .. } = opaque.roughness;
             let squared =
-                if u == v { self.squared(u).into() } else { Roughness { u: self.squared(u), v: self.squared(v) } };
+                if u == v { self.squared(u).into() } else { Roughness::aligned(self.squared(u), self.squared(v)) };
             RoughDielectricMaterial { glass, alpha: squared }.into()
         };
         let of = [self.material(opaque), self.material(clear)];

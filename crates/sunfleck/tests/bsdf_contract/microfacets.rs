@@ -2,7 +2,7 @@
 use glam::Vec3;
 use std::f64::consts::TAU;
 use sunfleck::{
-    bsdf::ggx::{Ggx, reflect_up},
+    bsdf::{Facets, Landscape, ggx::reflect_up},
     math::Local,
 };
 
@@ -27,8 +27,10 @@ fn over_normals(alpha: f32, f: impl Fn(Local) -> f64) -> f64 {
 
 const ALPHAS: [[f32; 2]; 6] = [[1e-3, 1e-3], [0.05, 0.05], [0.3, 0.3], [1.0, 1.0], [0.1, 0.5], [0.8, 0.2]];
 
-fn landscape([u, v]: [f32; 2]) -> Ggx {
-    Ggx::aligned(u, v)
+/// Every kind of landscape at every roughness, with the least of its two roughnesses.
+fn landscapes() -> impl Iterator<Item = (Landscape, f32)> {
+    let kinds = [Facets::Ggx, Facets::GgxSeparate, Facets::Beckmann].into_iter();
+    kinds.flat_map(|kind| ALPHAS.map(|[u, v]| (Landscape::new(kind, u, v), u.min(v))))
 }
 
 fn views() -> impl Iterator<Item = Local> {
@@ -40,39 +42,36 @@ fn views() -> impl Iterator<Item = Local> {
 
 #[test]
 fn microfacets_cover_the_surface_once() {
-    for alpha in ALPHAS {
-        let ggx = landscape(alpha);
-        let area = over_normals(alpha[0].min(alpha[1]), |m| f64::from(ggx.d(m) * m.cos_theta()));
-        assert!((area - 1.0).abs() < 1e-4, "{alpha:?}: {area}");
+    for (facets, narrow) in landscapes() {
+        let area = over_normals(narrow, |m| f64::from(facets.d(m) * m.cos_theta()));
+        assert!((area - 1.0).abs() < 1e-4, "{facets:?}: {area}");
     }
 }
 
 #[test]
 fn masking_leaves_the_projected_area_of_the_surface() {
     // Heitz 2014, eq. 7 with Smith's hypothesis: G1(wo) ∫ D (wo·m)+ dm = cos θo, which D alone decides.
-    for alpha in ALPHAS {
-        let ggx = landscape(alpha);
+    for (facets, narrow) in landscapes() {
         for wo in views() {
-            let seen = over_normals(alpha[0].min(alpha[1]), |m| f64::from(ggx.d(m) * wo.dot(m).max(0.0)));
+            let seen = over_normals(narrow, |m| f64::from(facets.d(m) * wo.dot(m).max(0.0)));
             let g1 = f64::from(wo.cos_theta()) / seen;
-            assert!((f64::from(ggx.g1(wo)) - g1).abs() < 1e-3, "{alpha:?} {}: {} {g1}", wo.0, ggx.g1(wo));
-            let total = over_normals(alpha[0].min(alpha[1]), |m| f64::from(ggx.pdf_visible(wo, m)));
-            assert!((total - 1.0).abs() < 1e-3, "{alpha:?} {}: {total}", wo.0);
+            assert!((f64::from(facets.g1(wo)) - g1).abs() < 1e-3, "{facets:?} {}: {} {g1}", wo.0, facets.g1(wo));
+            let total = over_normals(narrow, |m| f64::from(facets.pdf_visible(wo, m)));
+            assert!((total - 1.0).abs() < 1e-3, "{facets:?} {}: {total}", wo.0);
         }
     }
 }
 
 #[test]
 fn every_visible_normal_drawn_is_seen() {
-    for alpha in ALPHAS {
-        let ggx = landscape(alpha);
+    for (facets, _) in landscapes() {
         for wo in views() {
             for i in 0..1000u32 {
                 let u = glam::Vec2::new((i as f32 * 0.618).fract(), i as f32 / 1000.0);
-                let m = ggx.sample_visible(wo, u);
+                let m = facets.sample_visible(wo, u);
                 assert!(
-                    ggx.pdf_visible(wo, m) > 0.0 && (m.0.length() - 1.0).abs() < 1e-5,
-                    "{alpha:?} {} {}",
+                    facets.pdf_visible(wo, m) > 0.0 && (m.0.length() - 1.0).abs() < 1e-5,
+                    "{facets:?} {} {}",
                     wo.0,
                     m.0
                 );
@@ -83,14 +82,13 @@ fn every_visible_normal_drawn_is_seen() {
 
 #[test]
 fn shadowing_only_takes_light_away() {
-    for alpha in ALPHAS {
-        let ggx = landscape(alpha);
+    for (facets, _) in landscapes() {
         for (wo, wi) in views().flat_map(|a| views().map(move |b| (a, b))) {
-            let s = ggx.shadowing(wo, wi);
-            assert!(s > 0.0 && s <= 1.0, "{alpha:?}: {s}");
+            let s = facets.shadowing(wo, wi);
+            assert!(s > 0.0 && s <= 1.0, "{facets:?}: {s}");
             // Height correlation hides less than independence, and no more is seen than by either alone.
-            let g2 = s * ggx.g1(wo);
-            assert!(g2 >= ggx.g1(wo) * ggx.g1(wi) * 0.999 && g2 <= ggx.g1(wi) * 1.001, "{alpha:?}: {g2}");
+            let g2 = s * facets.g1(wo);
+            assert!(g2 >= facets.g1(wo) * facets.g1(wi) * 0.999 && g2 <= facets.g1(wi) * 1.001, "{facets:?}: {g2}");
         }
     }
 }

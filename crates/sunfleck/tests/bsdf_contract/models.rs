@@ -21,16 +21,19 @@ pub(crate) struct Case {
 impl Case {
     /// Whether it has an inside and an outside.
     pub(crate) fn transmits(&self) -> bool {
-        self.model.ends_with("dielectric") || self.model == DiffuseTransmissionMaterial::NAME
+        self.model.ends_with("dielectric")
+            || [DiffuseTransmissionMaterial::NAME, DisneyThinMaterial::NAME].contains(&self.model)
+            || self.label.contains("disney glass")
     }
     /// Relative error that f32 leaves: near grazing, the half vector of a narrow lobe is a small difference of unit vectors.
     pub(crate) fn tolerance(&self) -> f32 {
         if self.label.contains("alpha 0.001") || self.label.contains("roughness 0 ") { 2e-2 } else { 2e-3 }
     }
     /// Whether it never gives back more light than it gets, and is reciprocal. `NRenderer`'s Phong formula is neither: its
-    /// highlight lacks the cosine that physics demands, and it is kept for the sake of its pictures.
+    /// highlight lacks the cosine that physics demands, and it is kept for the sake of its pictures. Disney's lobes are reciprocal,
+    /// but just added up; sheets and coats of theirs give back too much.
     pub(crate) fn is_physical(&self) -> bool {
-        self.model != NRendererPhongMaterial::NAME
+        ![NRendererPhongMaterial::NAME, DisneyMaterial::NAME, DisneyThinMaterial::NAME].contains(&self.model)
     }
 }
 
@@ -72,6 +75,7 @@ pub(crate) fn cases() -> Vec<Case> {
     conductors(&mut shelf);
     glossy(&mut shelf);
     layered(&mut shelf);
+    mitsubas(&mut shelf);
     dispersive(&mut shelf);
     shelf.cases
 }
@@ -115,7 +119,7 @@ fn dielectrics(s: &mut Shelf) {
         s.add(&format!("eta {eta:.2}"), pane);
     }
     s.add("tinted", ThinDielectricMaterial { eta: 1.5.into(), reflectance: pink, transmittance: green });
-    let brushed = Roughness { u: 0.3.into(), v: 0.05.into() };
+    let brushed = Roughness::aligned(0.3.into(), 0.05.into());
     let glass = DielectricMaterial { eta: 1.5.into(), reflectance: white, transmittance: white };
     s.add_between("brushed", 1.5, RoughDielectricMaterial { glass, alpha: brushed });
     let tinted = DielectricMaterial { eta: 1.5.into(), reflectance: pink, transmittance: green };
@@ -146,7 +150,7 @@ fn conductors(s: &mut Shelf) {
     let metal = ConductorMaterial { eta: gold.0, k: gold.1, reflectance: white };
     s.add("gold", metal);
     for (u, v) in [(0.4, 0.05), (0.02, 0.7)] {
-        let alpha = Roughness { u: u.into(), v: v.into() };
+        let alpha = Roughness::aligned(u.into(), v.into());
         s.add(&format!("gold brushed {u} {v}"), RoughConductorMaterial { metal, alpha });
         s.add(&format!("ideal brushed {u} {v}"), RoughConductorMaterial { metal: ideal, alpha });
     }
@@ -211,13 +215,65 @@ fn layered(s: &mut Shelf) {
         let half = PrincipledMaterial { coat: 0.5.into(), metallic: 0.3.into(), base: body, ..cloth };
         s.add(&format!("all {r}"), PrincipledMaterial { coat_roughness: 0.4.into(), ..half });
     }
-    let brushed = Roughness { u: 0.8.into(), v: 0.3.into() };
+    let brushed = Roughness::aligned(0.8.into(), 0.3.into());
     s.add("brushed", PrincipledMaterial { roughness: brushed, metallic: 1.0.into(), ..plain });
     let gold = ConductorMaterial { eta: s.colour(0.16, 0.42, 1.38), k: s.colour(3.48, 2.36, 1.92), reflectance: white };
     for alpha in [0.1, 0.5] {
         let coated =
             CoatedConductorMaterial { metal: gold, alpha: alpha.into(), coat_ior: 1.5, coat_alpha: 0.05.into() };
         s.add(&format!("gold {alpha}"), coated);
+    }
+}
+
+/// Mitsuba's kinds of landscape, and its plastic and Disney's materials.
+fn mitsubas(s: &mut Shelf) {
+    let (white, body) = (s.grey(1.0), s.colour(0.7, 0.4, 0.1));
+    let gold = ConductorMaterial { eta: s.colour(0.16, 0.42, 1.38), k: s.colour(3.48, 2.36, 1.92), reflectance: white };
+    let glass = DielectricMaterial { eta: 1.5.into(), reflectance: white, transmittance: white };
+    for (word, facets) in [("separate", Facets::GgxSeparate), ("beckmann", Facets::Beckmann)] {
+        for alpha in [0.001, 0.05, 0.3, 1.0] {
+            let rough = Roughness::from(alpha).with(facets);
+            s.add(&format!("{word} alpha {alpha}"), RoughConductorMaterial { metal: gold, alpha: rough });
+            s.add_between(&format!("{word} alpha {alpha}"), 1.5, RoughDielectricMaterial { glass, alpha: rough });
+        }
+        let alpha = Roughness::aligned(0.4.into(), 0.05.into()).with(facets);
+        s.add(&format!("{word} brushed"), RoughConductorMaterial { metal: gold, alpha });
+        s.add_between(&format!("{word} brushed"), 1.5, RoughDielectricMaterial { glass, alpha });
+        for (diffuse, nonlinear) in [(white, false), (white, true), (body, true)] {
+            for alpha in [0.05, 0.4] {
+                let boundary = RoughBoundary::new(1.5, alpha, facets);
+                let plastic = RoughPlasticMaterial { diffuse, specular: white, boundary, nonlinear };
+                s.add(&format!("{word} {} {nonlinear} {alpha}", diffuse.0), plastic);
+            }
+        }
+    }
+    let plain = DisneyMaterial { roughness: 0.4.into(), ..DisneyMaterial::new(body) };
+    let dressed = DisneyMaterial { sheen: 0.8.into(), coat: 0.9.into(), coat_gloss: 0.3.into(), ..plain };
+    let all = DisneyMaterial { metallic: 0.3.into(), anisotropic: 0.7.into(), flatness: 0.5.into(), ..dressed };
+    let all = DisneyMaterial { specular_tint: 0.4.into(), sheen_tint: 0.6.into(), ..all };
+    s.add("plain", plain);
+    s.add("metal", DisneyMaterial { metallic: 1.0.into(), ..plain });
+    s.add("dressed", dressed);
+    s.add("all", all);
+    for (word, opaque, clear) in
+        [("plain", plain, 1.0), ("dressed", dressed, 1.0), ("all", all, 0.6), ("none", all, 0.0)]
+    {
+        s.add_between(&format!("glass {word}"), 1.5, DisneyMaterial { transmission: Some(clear.into()), ..opaque });
+    }
+    for (word, transmission, through) in [("matt", 0.0, 1.2), ("clear", 1.0, 0.0), ("half", 0.5, 0.7)] {
+        let sheet = DisneyThinMaterial {
+            base: body,
+            roughness: 0.5.into(),
+            anisotropic: 0.6.into(),
+            transmission: transmission.into(),
+            through: through.into(),
+            ior: 1.33.into(),
+            specular_tint: 0.3.into(),
+            sheen: 0.5.into(),
+            sheen_tint: 0.2.into(),
+            flatness: 0.4.into(),
+        };
+        s.add(word, sheet);
     }
 }
 
@@ -246,6 +302,7 @@ fn closures_stay_small() {
     // A light vertex or a gather point keeps one for a whole pass.
     assert!(size_of::<RoughConductor>() <= 64 && size_of::<RoughDielectric>() <= 64 && size_of::<CookTorrance>() <= 64);
     assert!(size_of::<Principled>() <= 64 && size_of::<Plastic>() <= 64 && size_of::<CoatedConductor>() <= 64);
+    assert!(size_of::<Disney>() <= 64 && size_of::<DisneyThin>() <= 64 && size_of::<RoughPlastic>() <= 64);
     assert!(size_of::<Phong>() <= 64 && size_of::<NRendererPhong>() <= 64 && size_of::<Bsdf>() <= 80);
 }
 

@@ -1,7 +1,7 @@
 //! Rules that tables cannot say.
 //!
-//! What makes a file unreadable, or leaves open what it means, is an error. What breaks a rule but no picture is a lapse:
-//! a warning, or an error for those who ask for it; such rules about the data themselves are looked at for those alone.
+//! What makes a file unreadable, or leaves open what it means, is an error. What breaks a rule but no picture is a lapse: told of
+//! as an error, too, but the file is read unless one is strict.
 
 mod accessors;
 mod animations;
@@ -41,7 +41,7 @@ pub(super) fn rules(root: &Value, (buffers, files): (&Buffers, &Files), told: &F
     rules.meshes();
     rules.looks();
     rules.animations();
-    if told.is_strict && rules.sink.is_ok() {
+    if rules.sink.is_ok() {
         rules.values();
     }
 }

@@ -1,4 +1,4 @@
-//! The numbers themselves, for those who ask for strictness.
+//! The numbers themselves.
 
 use super::super::data::{Component, Reference, reference};
 use super::super::document::{Fields, whole};

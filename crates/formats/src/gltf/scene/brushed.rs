@@ -40,7 +40,7 @@ impl Importer<'_> {
                 self.each_pixel(pbr.field("metallicRoughnessTexture"), |p| along(p.y * most, strength))
             }
         };
-        u.map_or(rough.into(), |u| Roughness { u, v: rough })
+        u.map_or(rough.into(), |u| Roughness::aligned(u, rough))
     }
 
     /// `of`, brushed in the direction that the extension gives.

@@ -1,4 +1,5 @@
 use super::{check, read, refusal, told};
+use crate::diagnostic::Severity;
 use serde_json::json;
 
 #[test]
@@ -31,12 +32,13 @@ fn mistakes_are_told_with_their_place_in_the_json() {
 }
 
 #[test]
-fn lapses_are_warnings_unless_one_is_strict() {
+fn lapses_are_told_as_errors_and_refused_by_the_strict() {
     let file = json!({ "asset": { "version": "2.0" }, "nodes": [], "extensionsUsed": ["EXT_unheard_of"] });
     let (_, warnings) = read(&file);
     let codes: Vec<&str> = warnings.iter().map(|w| w.code).collect();
     assert_eq!(codes, ["gltf::extension", "gltf::empty"]);
     assert!(warnings[0].message.contains("EXT_unheard_of"));
+    assert_eq!(warnings.iter().map(|w| w.severity).collect::<Vec<_>>(), [Severity::Warning, Severity::Error]);
     let error = check("a.gltf", file.to_string().into_bytes(), true).map(|_| ()).unwrap_err();
     assert_eq!((error.errors.len(), error.errors[0].code), (1, "gltf::empty"));
 }

@@ -26,6 +26,12 @@ impl Writer<'_> {
                     let line = format!("\"distant\"{}{to}", light("L", l.irradiance()));
                     self.source(None, &line);
                 }
+                Light::Sun(l) => {
+                    let to = point("from", Vec3::ZERO) + &point("to", l.direction());
+                    let disc = ours(&float("radius", l.radius()));
+                    let line = format!("\"distant\"{}{to}{disc}", light("L", l.irradiance()));
+                    self.source(None, &line);
+                }
                 Light::Spot(l) => {
                     let line = spot(l);
                     self.source(None, &line);

@@ -1,6 +1,7 @@
 //! Materials, each under a name of its own.
 
 use super::Writer;
+use super::mitsubas::facets;
 use super::text::{float, index, ours, param, quoted, string};
 use crate::Error;
 use glam::Vec3;
@@ -11,7 +12,7 @@ use sunfleck::bsdf::{
 use sunfleck::scene::MaterialId;
 
 /// A model and its parameters; what only we read is apart.
-struct Model {
+pub(super) struct Model {
     kind: &'static str,
     params: String,
     ours: String,
@@ -22,7 +23,7 @@ impl Model {
         Self { kind, params, ours: String::new() }
     }
     /// pbrt's nearest model, and what it is to us.
-    fn near(kind: &'static str, params: String, ours_kind: &str, ours: &str) -> Self {
+    pub(super) fn near(kind: &'static str, params: String, ours_kind: &str, ours: &str) -> Self {
         Self { kind, params, ours: string("type", ours_kind) + ours }
     }
 }
@@ -79,6 +80,9 @@ impl Writer<'_> {
                 Model::near("coateddiffuse", near, "sunfleck-cooktorrance", &exact)
             }
             Material::Plastic(m) => self.plastic(m)?,
+            Material::RoughPlastic(m) => self.rough_plastic(m)?,
+            Material::Disney(m) => self.disney(m)?,
+            Material::DisneyThin(m) => self.disney_thin(m)?,
             Material::CoatedConductor(m) => {
                 let params = self.colour_param("conductor.eta", m.metal.eta)?
                     + &self.colour_param("conductor.k", m.metal.k)?
@@ -108,7 +112,7 @@ impl Writer<'_> {
 
     fn glass(&mut self, kind: &'static str, m: &DielectricMaterial, alpha: Option<Roughness>) -> Result<Model, Error> {
         let params = index("eta", &m.eta) + &self.roughness(alpha)?;
-        let mut tints = String::new();
+        let mut tints = alpha.map_or(String::new(), facets);
         for (name, id) in [("Kr", m.reflectance), ("Kt", m.transmittance)] {
             if !self.is_white(id) {
                 tints += &self.colour_param(name, id)?;
@@ -120,7 +124,7 @@ impl Writer<'_> {
     fn metal(&mut self, m: &ConductorMaterial, alpha: Option<Roughness>) -> Result<Model, Error> {
         let params = self.colour_param("eta", m.eta)? + &self.colour_param("k", m.k)? + &self.roughness(alpha)?;
         let tint = if self.is_white(m.reflectance) { String::new() } else { self.colour_param("tint", m.reflectance)? };
-        Ok(Model { kind: "conductor", params, ours: tint })
+        Ok(Model { kind: "conductor", params, ours: tint + &alpha.map_or(String::new(), facets) })
     }
 
     fn phong(&mut self, kind: &str, [diffuse, specular]: [TextureId; 2], exponent: f32) -> Result<Model, Error> {
@@ -239,7 +243,7 @@ impl Writer<'_> {
     }
 
     fn roughness(&mut self, alpha: Option<Roughness>) -> Result<String, Error> {
-        let Some(Roughness { u, v }) = alpha else { return Ok(String::new()) };
+        let Some(Roughness { u, v, .. }) = alpha else { return Ok(String::new()) };
         let both = if u == v {
             self.scalar_param("roughness", u)?
         } else {

@@ -9,6 +9,7 @@
 mod files;
 mod lights;
 mod materials;
+mod mitsubas;
 mod picture;
 mod ply;
 mod shapes;

@@ -31,7 +31,7 @@ pub(super) fn coverings() -> Scene {
     b.add(Shape::Parallelogram(Parallelogram::new(curtain.p() + 0.4 * Vec3::Y, curtain.u(), curtain.v())), lace);
     let [eta, k, reflectance] = [Vec3::new(0.2, 0.9, 1.1), Vec3::new(3.9, 2.4, 2.3), Vec3::ONE].map(|c| b.constant(c));
     let metal = ConductorMaterial { eta, k, reflectance };
-    let alpha = Roughness { u: 0.5.into(), v: 0.2.into() };
+    let alpha = Roughness::aligned(0.5.into(), 0.2.into());
     let brushed = b.material(RoughConductorMaterial { metal, alpha });
     let waves = picture(&mut b, |x, y| Rgb::splat(0.01 * ((6.3 * x).sin() + (6.3 * y).cos())));
     let wavy = b.material(BumpMapMaterial { of: brushed, height: waves.into(), scale: 4.0 });
