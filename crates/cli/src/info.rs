@@ -24,7 +24,8 @@ pub(crate) fn run(args: &InfoArgs) -> Result<(), Failure> {
     let loaded = load::scene(&args.scene, &args.camera, args.compat, false)?;
     loaded.say_warnings();
     let info = Info::new(args, &loaded);
-    if args.json { console::print_json(&info) } else { console::print(&info.text(&loaded)) }?;
+    let told = if args.json { console::print_json(&info) } else { console::print(&info.text(&loaded)) };
+    told?;
     let broken = loaded.warnings().filter(Warning::is_error).count();
     if broken == 0 { Ok(()) } else { Err(Failure::Work(anyhow::Error::msg(BREAKS_RULES))) }
 }

@@ -1,6 +1,7 @@
 //! Whole scenes, written to a folder of their own.
 
 mod lights;
+mod looks;
 
 use super::serialized::tests::file as serialized_file;
 use crate::image::{RgbImage32, Tone, write_image};

@@ -108,17 +108,21 @@ impl Importer<'_, '_> {
     /// A texture that is asked for numbers instead of colours: Mitsuba's checkerboards then have their squares the other way
     /// about.
     pub(super) fn as_numbers(&mut self, id: TextureId) -> TextureId {
-        let texture = match self.target.builder().parts().textures[id.0 as usize] {
-            Texture::Checkerboard(c) => Texture::Checkerboard(Checkerboard { of: [c.of[1], c.of[0]], ..c }),
-            Texture::Mapped(m) => {
-                let of = self.as_numbers(m.of);
-                if of == m.of {
-                    return id;
-                }
-                Texture::Mapped(Mapped { of, ..m })
-            }
+        let (board, mapped) = match &self.target.builder().parts().textures[id.0 as usize] {
+            Texture::Checkerboard(c) => (Some(*c), None),
+            Texture::Mapped(m) => (None, Some(*m)),
             _ => return id,
         };
+        if let Some(board) = board {
+            let of = [board.of[1], board.of[0]];
+            return self.target.builder().texture(Texture::Checkerboard(Checkerboard { of, ..board }));
+        }
+        let Some(mapped) = mapped else { return id };
+        let of = self.as_numbers(mapped.of);
+        if of == mapped.of {
+            return id;
+        }
+        let texture = Texture::Mapped(Mapped { of, ..mapped });
         self.target.builder().texture(texture)
     }
 

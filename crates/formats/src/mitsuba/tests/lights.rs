@@ -92,7 +92,7 @@ fn lights_have_mitsubas_measures() {
         Vec3::splat(3.0)
     );
     let lights = scene("<emitter type='sunsky'><vector name='sun_direction' x='0' y='1' z='1'/></emitter>");
-    assert!(matches!(lights.lights(), [Light::Environment(_), Light::Directional(_)]));
+    assert!(matches!(lights.lights(), [Light::Environment(_), Light::Sun(_)]));
     let to_sun = lights.lights()[1].sample_li(Vec3::ZERO, Vec2::ZERO, &AROUND).unwrap().wi;
     assert!((to_sun - Vec3::new(0.0, 1.0, 1.0).normalize()).length() < 1e-5, "{to_sun}");
 }
