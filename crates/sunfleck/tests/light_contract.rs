@@ -191,8 +191,9 @@ fn the_list_of_lights_is_complete() {
         Light::Environment(_) => 4,
         Light::Goniometric(_) => 5,
         Light::Projection(_) => 6,
+        Light::Sun(_) => 7,
     };
-    assert!((0..7).all(|k| lights().iter().any(|(_, l)| kind(l) == k)));
+    assert!((0..8).all(|k| lights().iter().any(|(_, l)| kind(l) == k)));
 }
 
 const FROM: [Vec3; 3] = [Vec3::ZERO, Vec3::new(0.3, -0.8, 0.4), Vec3::new(0.5, 0.3, 1.15)];

@@ -50,7 +50,7 @@ pub(crate) enum Command {
     /// List integrators, materials or file formats
     List(ListArgs),
     /// Compare a picture with a reference
-    Diff(DiffArgs),
+    Diff(Box<DiffArgs>),
     /// Print a completion script for a shell
     Completions(CompletionsArgs),
 }

@@ -74,11 +74,7 @@ fn slope(sin: f64, cos: f64, u: f64) -> f64 {
         if off.abs() < 1e-7 * all {
             break;
         }
-        if off > 0.0 {
-            high = x
-        } else {
-            low = x
-        }
+        (low, high) = if off > 0.0 { (low, x) } else { (x, high) };
         // Newton's step, unless it leaves what is left of the interval.
         let step = x - off * root_pi / ((x * sin + cos) * gauss);
         x = if step > low && step < high { step } else { 0.5 * (low + high) };

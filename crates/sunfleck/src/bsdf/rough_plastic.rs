@@ -60,6 +60,9 @@ impl Reflected {
     }
 }
 
+/// By the bits of index and roughness, and the kind of landscape.
+type Known = BTreeMap<(u32, u32, u8), &'static Reflected>;
+
 /// A rough boundary of a clear thing, with its integrals.
 #[derive(Clone, Copy, Debug)]
 pub struct RoughBoundary {
@@ -71,7 +74,7 @@ pub struct RoughBoundary {
 impl RoughBoundary {
     /// Of relative index `ior`, at least 1.0001, and roughness `alpha`, the same in all directions.
     pub fn new(ior: f32, alpha: f32, facets: Facets) -> Self {
-        static KNOWN: OnceLock<Mutex<BTreeMap<(u32, u32, u8), &'static Reflected>>> = OnceLock::new();
+        static KNOWN: OnceLock<Mutex<Known>> = OnceLock::new();
         let ior = ior.max(1.0 + 1e-4);
         let landscape = Landscape::new(facets, alpha, alpha);
         let key = (ior.to_bits(), landscape.alpha().x.to_bits(), facets as u8);
