@@ -51,7 +51,7 @@ fn lights() -> Vec<(&'static str, Light)> {
         ("projection, dark in part", projection(halves())),
         ("directional", DirectionalLight::new(Vec3::new(1.0, 2.0, -3.0), Rgb::new(4.0, 3.0, 2.0)).unwrap().into()),
         ("sun", SunLight::new(Vec3::new(1.0, 2.0, -3.0), 4.7e-3, Rgb::new(4.0, 3.0, 2.0)).unwrap().into()),
-        ("sun, wide", SunLight::new(Vec3::new(0.3, -2.0, 1.0), 0.6, Rgb::new(4.0, 3.0, 2.0)).unwrap().into()),
+        ("sun, wide", SunLight::new(Vec3::new(0.3, 1.0, -2.0), 0.6, Rgb::new(4.0, 3.0, 2.0)).unwrap().into()),
         ("environment, constant", EnvironmentLight::constant(Rgb::new(0.3, 0.6, 0.9)).into()),
         ("environment, picture", EnvironmentLight::panorama(sky(), Rgb::splat(0.7), turn()).unwrap().into()),
         ("environment, two pixels", EnvironmentLight::panorama(halves(), Rgb::ONE, turn()).unwrap().into()),
