@@ -146,8 +146,14 @@ impl Importer<'_, '_> {
         match name {
             "bitmap" | "ldrtexture" => self.bitmap(props, None),
             "checkerboard" => {
-                let a = self.input(props, &["color0", "dark_color"], Vec3::splat(0.4), Role::Reflectance)?;
-                let b = self.input(props, &["color1", "bright_color"], Vec3::splat(0.2), Role::Reflectance)?;
+                // Plain numbers may be above 1: they need not be colours.
+                let role = |names: [&'static str; 2]| {
+                    let is_number = names.iter().any(|n| props.get(n).is_some_and(|(_, e)| e.tag == "float"));
+                    if is_number { Role::Index } else { Role::Reflectance }
+                };
+                let names = [["color0", "dark_color"], ["color1", "bright_color"]];
+                let a = self.input(props, &names[0], Vec3::splat(0.4), role(names[0]))?;
+                let b = self.input(props, &names[1], Vec3::splat(0.2), role(names[1]))?;
                 // Its squares have half a unit.
                 let map = UvMap { scale: Vec2::splat(2.0), offset: Vec2::ZERO };
                 let board = Texture::Checkerboard(Checkerboard { of: [a.id, b.id], map });

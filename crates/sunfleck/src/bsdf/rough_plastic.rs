@@ -21,54 +21,61 @@ const NODES: usize = 64;
 /// Micronormals that are drawn for one of them, along each side of the unit square.
 const SIDE: u32 = 32;
 
-/// How much a rough boundary reflects in all: worked out once for each setting, kept for good.
+/// What a rough boundary does in all: worked out once for each setting, kept for good.
 #[derive(Debug)]
-struct Reflected {
-    /// Of light from outside, at even cosines from 0 to 1.
-    outside: [f32; NODES],
-    /// Of even light from inside.
+struct Totals {
+    /// The share of light from outside that passes, at even cosines from 0 to 1.
+    passed: [f32; NODES],
+    /// The share of even light from inside that is sent back.
     inside: f32,
 }
 
-impl Reflected {
+impl Totals {
     fn new(ior: f32, landscape: Landscape) -> Self {
         let cos = |i: usize| (i as f32 / (NODES - 1) as f32).max(1e-6);
-        let albedo = |cos: f32, eta: f32| {
-            let wo = Local(Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos));
-            let one = |i: u32| {
-                let u = (Vec2::new((i % SIDE) as f32, (i / SIDE) as f32) + 0.5) / SIDE as f32;
-                let m = landscape.sample_visible(wo, u);
-                let fresnel = fresnel::dielectric(wo.dot(m).clamp(0.0, 1.0), eta).reflectance();
-                reflect_up(wo, m).map_or(0.0, |wi| fresnel * landscape.shadowing(wo, wi))
-            };
-            (0..SIDE * SIDE).map(one).sum::<f32>() / (SIDE * SIDE) as f32
-        };
-        // Mitsuba's rule for the mean over the hemisphere, which counts both ends whole: some percent below the integral.
-        let even = |i| 2.0 * albedo(cos(i), 1.0 / ior) * cos(i);
+        let even = |i| 2.0 * Self::shares(landscape, cos(i), 1.0 / ior)[0] * cos(i);
         Self {
-            outside: std::array::from_fn(|i| albedo(cos(i), ior)),
+            passed: std::array::from_fn(|i| Self::shares(landscape, cos(i), ior)[1]),
+            // Mitsuba's rule for the mean over the hemisphere, which counts both ends whole: some percent below the integral.
             inside: (0..NODES).map(even).sum::<f32>() / NODES as f32,
         }
     }
-    /// What is not reflected of light from outside.
+    /// What facets reflect of light at a cosine, and what they let pass; both only once, so that some is lost between them.
+    fn shares(landscape: Landscape, cos: f32, eta: f32) -> [f32; 2] {
+        let wo = Local(Vec3::new((1.0 - cos * cos).max(0.0).sqrt(), 0.0, cos));
+        let one = |i: u32| {
+            let u = (Vec2::new((i % SIDE) as f32, (i / SIDE) as f32) + 0.5) / SIDE as f32;
+            let m = landscape.sample_visible(wo, u);
+            let cos = wo.dot(m).clamp(0.0, 1.0);
+            let boundary = fresnel::dielectric(cos, eta);
+            let fresnel = boundary.reflectance();
+            let reflected = reflect_up(wo, m).map_or(0.0, |wi| fresnel * landscape.shadowing(wo, wi));
+            // Snell's law in vectors (Walter et al. 2007, eq. 40).
+            let down = Local((cos / eta - boundary.cos_t) * m.0 - wo.0 / eta);
+            let passes = fresnel < 1.0 && down.cos_theta() < 0.0;
+            Vec2::new(reflected, if passes { (1.0 - fresnel) * landscape.g1(down) } else { 0.0 })
+        };
+        ((0..SIDE * SIDE).map(one).sum::<Vec2>() / (SIDE * SIDE) as f32).to_array()
+    }
+    /// The share of light from outside that passes.
     #[inline]
     fn passed(&self, cos: f32) -> f32 {
         let x = cos.clamp(0.0, 1.0) * (NODES - 1) as f32;
         let i = (x as usize).min(NODES - 2);
-        let [a, b] = [self.outside[i], self.outside[i + 1]];
-        1.0 - (a + (x - i as f32) * (b - a))
+        let [a, b] = [self.passed[i], self.passed[i + 1]];
+        a + (x - i as f32) * (b - a)
     }
 }
 
 /// By the bits of index and roughness, and the kind of landscape.
-type Known = BTreeMap<(u32, u32, u8), &'static Reflected>;
+type Known = BTreeMap<(u32, u32, u8), &'static Totals>;
 
 /// A rough boundary of a clear thing, with its integrals.
 #[derive(Clone, Copy, Debug)]
 pub struct RoughBoundary {
     ior: f32,
     landscape: Landscape,
-    reflected: &'static Reflected,
+    totals: &'static Totals,
 }
 
 impl RoughBoundary {
@@ -79,8 +86,8 @@ impl RoughBoundary {
         let landscape = Landscape::new(facets, alpha, alpha);
         let key = (ior.to_bits(), landscape.alpha().x.to_bits(), facets as u8);
         let mut known = KNOWN.get_or_init(Mutex::default).lock().unwrap_or_else(PoisonError::into_inner);
-        let reflected = *known.entry(key).or_insert_with(|| Box::leak(Box::new(Reflected::new(ior, landscape))));
-        Self { ior, landscape, reflected }
+        let totals = *known.entry(key).or_insert_with(|| Box::leak(Box::new(Totals::new(ior, landscape))));
+        Self { ior, landscape, totals }
     }
     /// Relative index of refraction.
     pub fn ior(&self) -> f32 {
@@ -112,12 +119,11 @@ pub struct RoughPlasticMaterial {
 impl Model for RoughPlasticMaterial {
     type Closure = RoughPlastic;
     const NAME: &'static str = "roughplastic";
-    const ABOUT: &'static str =
-        "a matt base under a rough clear boundary, by Fresnel's equations and without light lost twice: Mitsuba's";
+    const ABOUT: &'static str = "a matt base under a rough clear boundary, by Fresnel's equations, without what facets send to one another: Mitsuba's";
     fn resolve(&self, at: &Lookup) -> RoughPlastic {
         let unit = |id| at.spectrum(id).map(|v| v.clamp(0.0, 1.0));
-        let RoughBoundary { ior, reflected, .. } = self.boundary;
-        let r = reflected.inside;
+        let RoughBoundary { ior, totals, .. } = self.boundary;
+        let r = totals.inside;
         let within = |rho: f32| rho / (ior * ior * (1.0 - if self.nonlinear { rho * r } else { r }));
         let specular = unit(self.specular);
         RoughPlastic { base: unit(self.diffuse).map(within), specular, boundary: self.boundary }
@@ -127,7 +133,7 @@ impl Model for RoughPlasticMaterial {
     }
 }
 
-/// `F D G / (4 cos θo cos θi) + ρ T(o) T(i) / (π n² (1 − ρ r))`: what passes the boundary, T, is what it does not reflect, and r
+/// `F D G / (4 cos θo cos θi) + ρ T(o) T(i) / (π n² (1 − ρ r))`: T passes the boundary from above, and r
 /// of the light from below is sent back.
 #[derive(Clone, Copy, Debug)]
 pub struct RoughPlastic {
@@ -141,14 +147,14 @@ impl RoughPlastic {
     /// Probability of the boundary's reflection; `None` if nothing is given back.
     #[inline]
     fn prob_gloss(&self, up: Local) -> Option<f32> {
-        let passed = self.boundary.reflected.passed(up.cos_theta());
+        let passed = self.boundary.totals.passed(up.cos_theta());
         let (s, d) = (self.specular.max() * (1.0 - passed), self.base.max() * passed);
         (s + d > 0.0).then(|| s / (s + d))
     }
     #[inline]
     fn f(&self, up: Local, wi: Local) -> Spectrum {
-        let RoughBoundary { ior, landscape, reflected } = self.boundary;
-        let matt = reflected.passed(up.cos_theta()) * reflected.passed(wi.cos_theta()) * FRAC_1_PI;
+        let RoughBoundary { ior, landscape, totals } = self.boundary;
+        let matt = totals.passed(up.cos_theta()) * totals.passed(wi.cos_theta()) * FRAC_1_PI;
         let gloss = landscape.glint(up, wi).map_or(0.0, |g| fresnel::dielectric(g.cos, ior).reflectance() * g.f);
         self.base * matt + self.specular * gloss
     }

@@ -25,6 +25,15 @@ fn checkerboards_begin_with_their_second_value_where_numbers_are_asked_for() {
 }
 
 #[test]
+fn numbers_of_checkerboards_may_be_above_one() {
+    let board = "<texture name='diff_trans' type='checkerboard'><float name='color0' value='1.5'/></texture>";
+    let (models, textures) = models(&format!("<bsdf type='principledthin'>{board}</bsdf>"));
+    let thin = models.iter().find_map(|m| if let Material::DisneyThin(m) = m { Some(*m) } else { None }).unwrap();
+    let at = |u| Lookup::new(&textures, Vec2::new(u, 0.2), Vec3::ZERO, Wavelengths::Rgb).scalar(thin.through);
+    assert_eq!((at(0.2), at(0.7)), (0.2, 1.5));
+}
+
+#[test]
 fn rough_surfaces_are_beckmanns_unless_said_otherwise() {
     for (word, facets) in [("", Facets::Beckmann), ("<string name='distribution' value='ggx'/>", Facets::GgxSeparate)] {
         let (metal, _) = models(&format!("<bsdf type='roughconductor'>{word}</bsdf>"));
