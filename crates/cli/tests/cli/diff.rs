@@ -116,7 +116,7 @@ fn a_z_test_accepts_what_the_noise_of_the_samples_explains() {
 #[test]
 fn a_picture_of_ours_tells_its_samples() {
     let place = place();
-    assert_eq!(place.run("render ball.scn --size 8x8 --spp 4 -q -o p.exr").code, Some(0));
+    assert_eq!(place.run("render ball.scn --width 8 --height 8 --spp 4 -q -o p.exr").code, Some(0));
     let ran = place.run("diff p.exr p.exr --variance p.exr --min-accepted 100%");
     assert_eq!((ran.code, ran.out.contains("100.000% of 192 values accepted")), (Some(0), true), "{}", ran.err);
 }
