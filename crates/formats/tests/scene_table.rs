@@ -113,7 +113,7 @@ struct Seen {
     row: String,
 }
 
-fn see(path: &Path) -> Result<Seen, String> {
+fn see(path: &Path, width: u32) -> Result<Seen, String> {
     let start = Instant::now();
     let options = LoadOptions { stage: true, allow_outside: true, ..LoadOptions::default() };
     let loaded = load(&[path.to_owned()], &options).map_err(|e| e.to_string())?;
@@ -122,7 +122,7 @@ fn see(path: &Path) -> Result<Seen, String> {
     builder.camera(camera.build(aspect).map_err(|e| e.to_string())?);
     let scene = builder.build().map_err(|e| e.to_string())?;
     let (load_time, counts) = (start.elapsed().as_secs_f32(), scene.counts());
-    let spec = FilmSpec { width: WIDTH, height: (WIDTH as f32 / aspect).round() as u32, filter: Filter::Box };
+    let spec = FilmSpec { width, height: (width as f32 / aspect).round() as u32, filter: Filter::Box };
     let mut params = Params::default();
     hints.scatterings.iter().for_each(|n| params.set("scatterings", n.to_string()));
     let integrator = find("unified").unwrap().build(params).map_err(|e| e.to_string())?;
@@ -138,10 +138,14 @@ fn see(path: &Path) -> Result<Seen, String> {
     Ok(Seen { picture, row })
 }
 
-/// Ratio of the means, and the relative squared error without the worst thousandth.
+/// Ratio of the means, and the relative squared error without the worst thousandth; both without lamps. A reference of eight
+/// bits ends at 1.
 fn judged(picture: &RgbImage32, reference: &RgbImage32) -> String {
-    let options = CompareOptions { bright_factor: None, ..CompareOptions::default() };
-    match compare(picture, reference, &options) {
+    let mut picture = picture.clone();
+    if reference.data.iter().flatten().all(|v| *v <= 1.0) {
+        picture.data.iter_mut().flatten().for_each(|v| *v = v.min(1.0));
+    }
+    match compare(&picture, reference, &CompareOptions::default()) {
         Ok(c) => format!("{:.4} | {:.4}", c.means.ratio_grey, c.rel_mse_trimmed),
         Err(e) => format!("{e} | "),
     }
@@ -183,7 +187,7 @@ fn every_scene_loads_and_is_seen() {
     for (number, path) in scenes_below(&folder).into_iter().enumerate() {
         let name = path.strip_prefix(&folder).unwrap().display();
         let reference = reference_of(&path);
-        match see(&path) {
+        match see(&path, reference.as_ref().map_or(WIDTH, |r| r.width.min(WIDTH))) {
             Ok(Seen { picture, row }) => {
                 let level = level_of(reference.as_ref().unwrap_or(&picture));
                 let reference = reference.map(|r| shrunk(&r, picture.width, picture.height));
