@@ -4,7 +4,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 use sunfleck::{
     light::{
         AreaLight, DirectionalLight, Emitter, EmitterHit, EnvironmentError, EnvironmentLight, Light, PointLight, Sides,
-        SpotLight, Surroundings,
+        SpotLight, SunLight, Surroundings,
     },
     sampler::{Domain, Sampler},
     shape::{Mesh, Parallelogram, Shape, Sphere},
@@ -94,6 +94,11 @@ fn point_and_distant_lights_follow_the_cosine_and_the_inverse_square() {
     let distant = DirectionalLight::new(Vec3::new(0.0, 0.0, -7.0), Rgb::splat(4.0)).unwrap().into();
     close("directional", irradiance(&distant, p, n), 4.0 * 0.8);
     assert_eq!(irradiance(&distant, p, -n), 0.0);
+    // A disc that is wholly above the surface gives as much as all its light in its middle.
+    for radius in [4.7e-3, 0.5] {
+        let sun = SunLight::new(Vec3::new(0.0, 0.0, -7.0), radius, Rgb::splat(4.0)).unwrap().into();
+        close("sun", irradiance(&sun, p, n), 4.0 * 0.8);
+    }
 }
 
 #[test]
