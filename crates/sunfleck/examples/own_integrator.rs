@@ -58,7 +58,7 @@ impl PassRenderer for Prepared<'_> {
             let mut sampler = Sampler::new(pass.seed, Domain::Camera, pass.index, pixel);
             let Sample { raster, weight } = spec.sample(x, y, sampler.next_2d());
             let ray = world.camera().ray(raster, sampler.next_2d()).ray;
-            let start = Start { ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
+            let start = Start::from_camera(&world, ray);
             let mut look = Look { world: &world, settings: self.settings, sum: Spectrum::BLACK, rays: 0 };
             counts.rays += walk(&world, &start, &self.settings.limits, &mut sampler, &mut look) + look.rays;
             look.sum.to_rgb(pass.lambda) * weight

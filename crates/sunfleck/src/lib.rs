@@ -12,6 +12,7 @@ pub mod film;
 pub mod integrator;
 pub mod light;
 pub mod math;
+pub mod medium;
 pub mod photon;
 pub mod render;
 pub mod sampler;

@@ -4,6 +4,7 @@
 use crate::{
     bsdf::Transport,
     math::Ray,
+    medium::Inside,
     sampler::Sampler,
     scene::{Interaction, Scattered, World},
     spectrum::Spectrum,
@@ -33,6 +34,8 @@ pub struct Arrival<'a> {
     pub at: &'a Interaction,
     /// Throughput (camera walk) or flux (light walk) that arrives.
     pub beta: Spectrum,
+    /// The same at the beginning of the last leg, before an interior took its share.
+    pub departed: Spectrum,
     /// Scatterings so far.
     pub scatterings: u32,
     /// Density (1/sr) of the direction that led here; meaningless if `delta`.
@@ -45,6 +48,8 @@ pub struct Arrival<'a> {
     pub dispersed: bool,
     /// Distance travelled so far.
     pub travelled: f32,
+    /// The interiors that the path is in as it arrives.
+    pub inside: &'a Inside,
 }
 
 /// A ray leaving the scene.
@@ -98,27 +103,72 @@ pub struct Start {
     pub mode: Transport,
     /// Only the hero counts from the beginning: the walk goes on from a dispersed path, which has weighed it.
     pub dispersed: bool,
+    /// The interiors that it starts in.
+    pub inside: Inside,
+}
+
+impl Start {
+    /// Of a path from the camera.
+    #[inline]
+    pub fn from_camera(world: &World, ray: Ray) -> Self {
+        let inside = world.camera_inside();
+        Self { ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false, inside }
+    }
+}
+
+impl Arrival<'_> {
+    /// The start of another walk, which goes on from here as `s` says, with a throughput or flux of its own.
+    #[inline]
+    pub fn branch(&self, world: &World, s: &Scattered, mode: Transport) -> Start {
+        let mut inside = *self.inside;
+        if s.crosses && world.is_filled() {
+            world.cross(self.at, &mut inside);
+        }
+        Start { ray: self.at.spawn(s.wi), beta: s.weight, mode, dispersed: self.dispersed, inside }
+    }
 }
 
 /// Walks from `start` until it escapes, is absorbed, the visitor stops it, or the limit is reached.
 ///
-/// Russian roulette: light walks survive with `min(1, β_new / β_old)`, so that photons keep like power; camera walks,
+/// On each leg, interiors take their share of what is carried, and surfaces that they hide are passed (see [`crate::medium`]).
+///
+/// Russian roulette: light walks survive with `min(1, β_new / β_old)`, `β_old` as of the beginning of
+/// the last leg, so that photons keep like power; camera walks,
 /// after [`Limits::roulette_after`] scatterings, with `min(1, β·η²)`, where η² undoes the compression of radiance inside
 /// glass (without it, walks would die or multiply there). Both are unbiased: survivors are divided by the probability.
 ///
 /// Returns the number of rays traced.
 pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler, visitor: &mut impl Visit) -> u64 {
-    let Start { mut ray, mut beta, mode, mut dispersed } = *start;
+    let Start { mut ray, mut beta, mode, mut dispersed, mut inside } = *start;
     let (mut pdf, mut delta, mut all_delta) = (1.0, true, true);
     let (mut eta_scale, mut travelled) = (1.0f32, 0.0);
     let mut scatterings = 0;
     loop {
-        let Some(at) = world.intersect(&ray) else {
+        let mut hit = world.intersect(&ray);
+        if world.is_filled() {
+            hit = world.within(hit, &mut inside);
+        }
+        let Some(at) = hit else {
             visitor.escape(&Escape { ray: &ray, beta, scatterings, pdf, delta, dispersed });
             break;
         };
         travelled += at.distance;
-        let arrival = Arrival { at: &at, beta, scatterings, pdf, delta, all_delta, dispersed, travelled };
+        let departed = beta;
+        if world.is_filled() {
+            beta *= world.transmittance(at.near, at.distance);
+        }
+        let arrival = Arrival {
+            at: &at,
+            beta,
+            departed,
+            scatterings,
+            pdf,
+            delta,
+            all_delta,
+            dispersed,
+            travelled,
+            inside: &inside,
+        };
         let step = visitor.surface(&arrival, sampler);
         if step == Step::Stop || scatterings >= limits.scatterings {
             break;
@@ -136,7 +186,7 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         }
         eta_scale *= s.eta * s.eta;
         let survive = match mode {
-            Transport::Flux => next.max() / beta.max(),
+            Transport::Flux => next.max() / departed.max(),
             Transport::Radiance if scatterings >= limits.roulette_after => next.max() * eta_scale,
             Transport::Radiance => 1.0,
         };
@@ -152,6 +202,9 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         visitor.scatter(&at, &s);
         (pdf, delta) = (s.pdf, s.delta);
         all_delta &= s.delta;
+        if s.crosses && world.is_filled() {
+            world.cross(&at, &mut inside);
+        }
         ray = at.spawn(s.wi);
         scatterings += 1;
     }

@@ -51,6 +51,10 @@ pub struct Dielectric {
 }
 
 impl Dielectric {
+    /// See [`super::Bsdf::immersed`].
+    pub(super) fn immersed(self, outer: Spectrum) -> Self {
+        Self { eta: self.eta.zip(outer, |eta, outer| eta / outer), ..self }
+    }
     /// η of the far side over η of the side that `wo` is on, for the hero.
     #[inline]
     pub(super) fn eta_beyond(&self, wo: Local) -> f32 {

@@ -245,6 +245,16 @@ impl Bsdf {
     pub fn has_one_lobe(&self) -> bool {
         matches!(self, Self::Diffuse(_) | Self::Mirror(_) | Self::Black(_))
     }
+    /// The same boundary where what lies above it has the index of refraction `outer`, instead of empty space: for glass. Other
+    /// models stay as they are.
+    #[must_use]
+    pub(crate) fn immersed(self, outer: Spectrum) -> Self {
+        match self {
+            Self::Dielectric(b) => b.immersed(outer).into(),
+            Self::RoughDielectric(b) => b.immersed(outer),
+            other => other,
+        }
+    }
     /// True where [`Scatter::sample`] surely does not look at `u`.
     #[inline]
     pub fn is_polished(&self) -> bool {

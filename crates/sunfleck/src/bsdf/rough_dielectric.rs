@@ -25,11 +25,7 @@ impl Model for RoughDielectricMaterial {
     #[inline]
     fn resolve(&self, at: &Lookup) -> Bsdf {
         let glass = self.glass.resolve(at);
-        let blurs = |facets: &Landscape| facets.alpha().max_element() * (glass.eta.hero() - 1.0).abs() >= 1e-4;
-        match self.alpha.landscape(at).filter(blurs) {
-            Some(facets) => RoughDielectric { glass, facets }.into(),
-            None => glass.into(),
-        }
+        self.alpha.landscape(at).map_or(glass.into(), |facets| RoughDielectric { glass, facets }.if_it_blurs())
     }
     fn textures(&self) -> Vec<TextureId> {
         self.glass.textures().into_iter().chain(self.alpha.textures()).collect()
@@ -54,6 +50,16 @@ pub struct RoughDielectric {
 }
 
 impl RoughDielectric {
+    /// Itself, or the smooth boundary where f32 could not tell which facet had bent the light.
+    #[inline]
+    fn if_it_blurs(self) -> Bsdf {
+        let blur = self.facets.alpha().max_element() * (self.glass.eta.hero() - 1.0).abs();
+        if blur >= 1e-4 { self.into() } else { self.glass.into() }
+    }
+    /// See [`Bsdf::immersed`].
+    pub(super) fn immersed(self, outer: Spectrum) -> Bsdf {
+        Self { glass: self.glass.immersed(outer), ..self }.if_it_blurs()
+    }
     /// [`Scatter::sample`] where all wavelengths are bent alike.
     #[inline]
     fn sample_alike(&self, wo: Local, u_lobe: f32, u: Vec2, mode: Transport) -> Option<BsdfSample> {

@@ -44,6 +44,12 @@ pub struct ThinDielectric {
     transmittance: Spectrum,
 }
 
+impl ThinDielectric {
+    /// A pane that changes nothing.
+    pub(crate) const NOTHING: Self =
+        Self { eta: Spectrum::ONE, reflectance: Spectrum::ONE, transmittance: Spectrum::ONE };
+}
+
 impl Scatter for ThinDielectric {
     #[inline]
     fn sample(&self, wo: Local, u_lobe: f32, _: Vec2, _: Transport) -> Option<BsdfSample> {

@@ -1,12 +1,10 @@
 //! The camera's end of a path: which place of a pixel, through which point of the lens.
 use super::Pass;
 use crate::{
-    bsdf::Transport,
     camera::{CameraRay, Project},
     film::{FilmSpec, Sample},
     sampler::{Domain, Sampler},
     scene::World,
-    spectrum::Spectrum,
     walk::Start,
 };
 use glam::Vec2;
@@ -41,7 +39,7 @@ impl EyeRay {
     }
     /// The beginning of a camera walk.
     #[inline]
-    pub(super) fn start(&self) -> Start {
-        Start { ray: self.camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false }
+    pub(super) fn start(&self, world: &World) -> Start {
+        Start::from_camera(world, self.camera.ray)
     }
 }

@@ -71,8 +71,8 @@ fn lights_seen_directly(world: &World, pass: &Pass, image: &mut PassImage) {
         let eye = EyeRay::new(world, spec, pass, pass.index, (x, y));
         let ray = eye.camera.ray;
         counts.rays += 1;
-        let le = match world.intersect(&ray) {
-            Some(at) => world.emitted(&at),
+        let le = match world.within(world.intersect(&ray), &mut world.camera_inside()) {
+            Some(at) => world.emitted(&at) * world.transmittance(at.near, at.distance),
             None => world.escaped(ray.o, ray.d).fold(Spectrum::BLACK, |sum, sky| sum + sky.le),
         };
         le.to_rgb(pass.lambda) * eye.weight
@@ -109,8 +109,8 @@ impl Visit for Connect<'_> {
         let value = a.beta * a.at.f_cos(c.wi, Transport::Flux) * c.importance;
         if !value.is_black() {
             self.counts.rays += 1;
-            if !self.world.occluded(&a.at.spawn_to(c.wi, c.p)) {
-                self.splats.push(Splat { raster: c.raster, value: value.to_rgb(self.world.lambda()) });
+            if let Some(passed) = self.world.passed(a.at, &a.at.spawn_to(c.wi, c.p)) {
+                self.splats.push(Splat { raster: c.raster, value: (value * passed).to_rgb(self.world.lambda()) });
             }
         }
         Step::On

@@ -42,7 +42,7 @@ impl PassRenderer for Prepared<'_> {
         let spec = image.spec();
         image.fill(|x, y, counts| {
             let mut eye = EyeRay::new(&world, spec, pass, pass.index, (x, y));
-            self.radiance(&world, &eye.start(), &mut eye.sampler, counts).to_rgb(pass.lambda) * eye.weight
+            self.radiance(&world, &eye.start(&world), &mut eye.sampler, counts).to_rgb(pass.lambda) * eye.weight
         });
     }
 }
@@ -106,11 +106,12 @@ pub(super) fn direct(
     let Some(d) = world.sample_direct(at.p, u_light, u) else { return Spectrum::BLACK };
     let li = &d.li;
     let f = at.f_cos(li.wi, Transport::Radiance);
-    if f.is_black() || world.occluded(&at.spawn_toward(li.wi, &li.end)) {
+    if f.is_black() {
         return Spectrum::BLACK;
     }
+    let Some(passed) = world.passed(at, &at.spawn_toward(li.wi, &li.end)) else { return Spectrum::BLACK };
     let weight = if li.delta { 1.0 } else { weigh(li.pdf, at.pdf(li.wi)) };
-    f * li.li * (weight / li.pdf)
+    f * li.li * passed * (weight / li.pdf)
 }
 
 /// Weight of a technique of density `a` beside one of density `b` (Veach 1997, section 9.2.3, β = 2).

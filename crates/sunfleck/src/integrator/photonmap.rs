@@ -175,7 +175,7 @@ impl PassRenderer for Prepared<'_> {
             let mut sum = Spectrum::BLACK;
             for sample in pass.index * samples..(pass.index + 1) * samples {
                 let mut ray = EyeRay::new(&world, spec, pass, sample, (x, y));
-                sum += eye.radiance(&ray.start(), &mut ray.sampler, counts) * ray.weight;
+                sum += eye.radiance(&ray.start(&world), &mut ray.sampler, counts) * ray.weight;
             }
             (sum / samples as f32).to_rgb(pass.lambda)
         });

@@ -199,7 +199,7 @@ impl Prepared<'_> {
             hit_share: 1.0,
             rays: 0,
         };
-        let rays = walk(world, &eye.start(), &limits, &mut eye.sampler, &mut look);
+        let rays = walk(world, &eye.start(world), &limits, &mut eye.sampler, &mut look);
         let rgb = |s: Spectrum| s.to_rgb(pass.lambda) * eye.weight;
         let whole = |c: Rgb| if c.is_finite() { c } else { Rgb::ZERO };
         let found = Found {

@@ -1,6 +1,5 @@
 //! Where a camera path first gathers.
 use crate::{
-    bsdf::Transport,
     camera::{Project, Spread},
     film::FilmSpec,
     sampler::Sampler,
@@ -34,7 +33,7 @@ impl Sight {
         sampler: &mut Sampler,
     ) -> Option<Self> {
         let camera = world.camera().ray(raster, u_lens);
-        let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
+        let start = Start::from_camera(world, camera.ray);
         let mut first = First { spread: camera.spread, found: None };
         walk(world, &start, &limits, sampler, &mut first);
         first.found

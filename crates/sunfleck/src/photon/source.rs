@@ -34,9 +34,10 @@ pub struct Emission {
 impl Emission {
     /// A ray of `light`, which was chosen with probability `prob`. `None` if it carries nothing.
     #[inline]
-    pub(super) fn new(light: LightId, prob: f32, le: LeSample) -> Option<Self> {
+    pub(super) fn new(world: &World, light: LightId, prob: f32, le: LeSample) -> Option<Self> {
         let beta = le.flux() / prob;
-        let start = Start { ray: le.ray, beta, mode: Transport::Flux, dispersed: false };
+        let inside = world.light_inside(light);
+        let start = Start { ray: le.ray, beta, mode: Transport::Flux, dispersed: false, inside };
         let pdf = prob * le.pdf_area * le.pdf_dir;
         (beta.is_finite() && !beta.is_black()).then_some(Self { start, light, le, pdf })
     }
@@ -62,11 +63,11 @@ impl Source {
         if let Some(mixture) = &self.aim {
             let (u, u_area, u_dir) = (sampler.next_1d(), sampler.next_2d(), sampler.next_2d());
             let drawn = mixture.sample(world, u, u_area, u_dir)?;
-            return Emission::new(drawn.light, drawn.prob, drawn.le);
+            return Emission::new(world, drawn.light, drawn.prob, drawn.le);
         }
         let (u, u_area, u_dir) = (world.light_number(sampler), sampler.next_2d(), sampler.next_2d());
         let (light, prob, _) = world.choose_light(u)?;
-        Emission::new(light, prob, world.light(light).sample_le(u_area, u_dir, world.around())?)
+        Emission::new(world, light, prob, world.light(light).sample_le(u_area, u_dir, world.around())?)
     }
     /// The density [`Emission::pdf`] with which [`Source::emit`] starts the ray that leaves `light` in the unit direction
     /// `d`: from `hit` if it has a surface, else from its place, or from infinity along the line through `through`. Zero

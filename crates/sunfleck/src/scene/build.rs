@@ -10,6 +10,7 @@ use crate::{
     camera::{Camera, Perspective, Project, View},
     light::{Light, Sides, Surroundings},
     math::Motion,
+    medium::{Interior, InteriorId},
     shape::Shape,
     spectrum::{Colour, Illuminant, Wavelengths},
     texture::Texture,
@@ -53,6 +54,9 @@ pub enum SceneError {
         /// Which object.
         object: u32,
     },
+    /// More interiors than handles.
+    #[error("a scene can have 65535 interiors, and this one has {0}")]
+    Interiors(usize),
     /// A movement of the camera that would have to turn it inside out on the way.
     #[error("the camera cannot move: its two views are of different kinds, or one is a mirror image of the other")]
     CameraMotion,
@@ -63,6 +67,9 @@ pub enum SceneError {
 pub struct SceneBuilder {
     textures: Vec<Texture>,
     materials: Vec<Material>,
+    interiors: Vec<Interior>,
+    /// What lies behind materials, by [`MaterialId`]; the rest have none.
+    fillings: Vec<Option<InteriorId>>,
     surfaces: Vec<SurfaceDef>,
     objects: Vec<Vec<SurfaceDef>>,
     instances: Vec<Instance>,
@@ -90,8 +97,8 @@ impl SceneBuilder {
     }
     /// What was added so far.
     pub fn parts(&self) -> Parts<'_> {
-        let Self { textures, materials, surfaces, objects, instances, lights, .. } = self;
-        Parts { textures, materials, surfaces, objects, instances, lights }
+        let Self { textures, materials, interiors, fillings, surfaces, objects, instances, lights, .. } = self;
+        Parts { textures, materials, interiors, fillings, surfaces, objects, instances, lights }
     }
     /// Puts another material in the place of `id`, wherever that is used. False if there is no such material.
     pub fn replace_material(&mut self, id: MaterialId, m: impl Into<Material>) -> bool {
@@ -115,6 +122,18 @@ impl SceneBuilder {
     pub fn material(&mut self, m: impl Into<Material>) -> MaterialId {
         self.materials.push(m.into());
         MaterialId(self.materials.len() as u32 - 1)
+    }
+    /// Adds an interior.
+    pub fn interior(&mut self, i: Interior) -> InteriorId {
+        self.interiors.push(i);
+        InteriorId(u16::try_from(self.interiors.len() - 1).unwrap_or(u16::MAX))
+    }
+    /// Puts `interior` behind all surfaces of the material `id`, on the side that normals point away from. What lies behind
+    /// the parts of a covering does not count.
+    pub fn fill(&mut self, id: MaterialId, interior: InteriorId) {
+        let at = id.0 as usize;
+        self.fillings.resize(self.fillings.len().max(at + 1), None);
+        self.fillings[at] = Some(interior);
     }
     /// Adds a surface in world space.
     pub fn surface(&mut self, s: SurfaceDef) {
@@ -185,10 +204,29 @@ impl SceneBuilder {
             let around = surroundings(&moment.bvh.bounds());
             (Geometry::Still(Arc::new(moment.with_lights(&lights, Vec::new(), &around))), around)
         };
-        let Self { textures, materials, camera_to, .. } = self;
-        let porous = porous(&materials);
-        let looks = looks(&materials, &textures);
-        Ok(Scene { textures, materials, porous, looks, objects, lights, geometry, camera, camera_to, around })
+        let Self { textures, materials, interiors, fillings, camera_to, .. } = self;
+        let porous = porous(&materials, &fillings);
+        let mut looks = looks(&materials, &textures);
+        for (look, filling) in looks.iter_mut().zip(&fillings) {
+            look.interior = *filling;
+            // Its scattering depends on what is before it.
+            look.at_place_alone &= filling.is_none_or(|id| interiors[usize::from(id.0)].priority == 0);
+        }
+        let crowded = false.into();
+        Ok(Scene {
+            textures,
+            materials,
+            porous,
+            looks,
+            interiors,
+            crowded,
+            objects,
+            lights,
+            geometry,
+            camera,
+            camera_to,
+            around,
+        })
     }
 
     fn check(&self) -> Result<(), SceneError> {
@@ -200,6 +238,15 @@ impl SceneBuilder {
         }
         for t in self.materials.iter().flat_map(Material::textures) {
             check("texture", t.0, self.textures.len())?;
+        }
+        if self.interiors.len() > usize::from(u16::MAX) {
+            return Err(SceneError::Interiors(self.interiors.len()));
+        }
+        for filling in self.fillings.iter().flatten() {
+            check("interior", u32::from(filling.0), self.interiors.len())?;
+        }
+        if let Some(last) = self.fillings.len().checked_sub(1) {
+            check("material", last as u32, self.materials.len())?;
         }
         // A material is laid over earlier ones, so that finding what is met comes to an end.
         for (count, m) in self.materials.iter().enumerate() {
@@ -243,12 +290,14 @@ impl SceneBuilder {
     }
 }
 
-/// Whether rays may pass each material; empty if they pass none.
-fn porous(materials: &[Material]) -> Vec<bool> {
+/// Whether rays may pass each material; empty if they pass none. Holes in what has an interior are surfaces, which paths cross
+/// unbent.
+fn porous(materials: &[Material], fillings: &[Option<InteriorId>]) -> Vec<bool> {
     let mut porous = Vec::with_capacity(materials.len());
     for m in materials {
         porous.push(is_porous(m, &porous));
     }
+    porous.iter_mut().zip(fillings).for_each(|(p, filling)| *p &= filling.is_none());
     if porous.contains(&true) { porous } else { Vec::new() }
 }
 
@@ -264,7 +313,7 @@ fn looks(materials: &[Material], textures: &[Texture]) -> Vec<Looks> {
         let own = m.textures();
         let even = own.iter().all(|t| matches!(textures[t.0 as usize], Texture::Constant(_)));
         let asks_vertices = own.iter().any(|t| of_vertices[t.0 as usize]);
-        Looks { at_uv: !(m.is_plain() && even), at_place_alone: m.is_plain() && !asks_vertices }
+        Looks { at_uv: !(m.is_plain() && even), at_place_alone: m.is_plain() && !asks_vertices, interior: None }
     };
     materials.iter().map(one).collect()
 }

@@ -4,6 +4,7 @@ use crate::{
     bsdf::{Bsdf, BsdfSample, Scatter, Transport, cover::Covered},
     light::{EmitterHit, LightEnd, LightId},
     math::{Frame, Local, Ray, offset_origin},
+    medium::Medium,
     shape::SurfacePoint,
     spectrum::Spectrum,
 };
@@ -35,6 +36,10 @@ pub struct Interaction {
     pub gathers: bool,
     /// The light on this surface.
     pub light: Option<LightId>,
+    /// What lies on the side of `wo`, and on the other.
+    pub near: Medium,
+    /// See `near`.
+    pub far: Medium,
 }
 
 /// A direction to go on in, in world space.
@@ -87,7 +92,9 @@ impl Interaction {
     pub(super) fn covered(s: &SurfacePoint, wo: Vec3, distance: f32, by: &Covered, surface: &Surface) -> Self {
         let Covered { bsdf, frame, gathers } = *by;
         let (material, light) = (surface.material, surface.light);
-        Self { p: s.p, p_error: s.p_error, ng: s.ng, frame, wo, distance, uv: s.uv, bsdf, material, gathers, light }
+        let (near, far) = (Medium::VACUUM, Medium::VACUUM);
+        let (p, p_error, ng, uv) = (s.p, s.p_error, s.ng, s.uv);
+        Self { p, p_error, ng, frame, wo, distance, uv, bsdf, material, gathers, light, near, far }
     }
     /// The emitting surface that was met.
     #[inline]
@@ -195,6 +202,12 @@ impl Interaction {
     #[inline]
     fn sides_agree(&self, w: Vec3, local: Local) -> bool {
         self.ng.dot(w) * local.cos_theta() > 0.0
+    }
+
+    /// What a path goes on in that leaves in direction `d`.
+    #[inline]
+    pub fn medium_toward(&self, d: Vec3) -> Medium {
+        if self.ng.dot(d) * self.ng.dot(self.wo) > 0.0 { self.near } else { self.far }
     }
 
     /// A ray from here in direction `d` that does not meet this surface again.

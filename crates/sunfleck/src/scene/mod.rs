@@ -2,6 +2,7 @@
 //!
 //! [`SceneBuilder`] checks and freezes it; [`World`] is the scene as one pass sees it, and what every algorithm asks.
 mod build;
+mod filled;
 mod interaction;
 mod moment;
 mod moving;
@@ -22,12 +23,14 @@ use crate::{
     bsdf::Material,
     camera::Camera,
     light::{Light, LightId, Surroundings},
+    medium::{Interior, InteriorId},
     shape::Shape,
     spectrum::Wavelengths,
     texture::Texture,
 };
 use glam::Vec3;
 use moving::Geometry;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 pub use crate::bsdf::{MaterialId, TextureId};
 
@@ -57,6 +60,9 @@ pub struct Scene {
     porous: Vec<bool>,
     /// What it looks at, by material.
     looks: Vec<Looks>,
+    interiors: Vec<Interior>,
+    /// Some path was in more interiors than it can remember.
+    crowded: AtomicBool,
     objects: Vec<Vec<Surface>>,
     /// Those that stand still.
     lights: Vec<Light>,
@@ -74,6 +80,8 @@ struct Looks {
     at_uv: bool,
     /// Nothing but the point, its texture coordinates and its normal: see [`Record`].
     at_place_alone: bool,
+    /// What lies behind it. Not of a hit, but looked up with the rest.
+    interior: Option<InteriorId>,
 }
 
 /// What a scene holds, for summaries.
@@ -121,6 +129,14 @@ impl Scene {
     /// Whether nothing in it makes caustics.
     pub fn is_matt(&self) -> bool {
         self.materials.iter().all(Material::is_matt)
+    }
+    /// All interiors, by [`InteriorId`].
+    pub fn interiors(&self) -> &[Interior] {
+        &self.interiors
+    }
+    /// Whether some path so far was in more than [`crate::medium::DEPTH`] interiors at once, and forgot the rest.
+    pub fn was_crowded(&self) -> bool {
+        self.crowded.load(Ordering::Relaxed)
     }
     /// Whether some material bends each wavelength differently, which only spectral mode shows.
     pub fn is_dispersive(&self) -> bool {

@@ -1,6 +1,11 @@
 //! What a scene is made of, for those who write it down or look through it.
 use super::{ObjectId, SurfaceDef};
-use crate::{bsdf::Material, light::Light, texture::Texture};
+use crate::{
+    bsdf::Material,
+    light::Light,
+    medium::{Interior, InteriorId},
+    texture::Texture,
+};
 use glam::Affine3A;
 
 /// An object's placements as the shutter opens and as it closes.
@@ -21,6 +26,10 @@ pub struct Parts<'b> {
     pub textures: &'b [Texture],
     /// By [`super::MaterialId`].
     pub materials: &'b [Material],
+    /// By [`InteriorId`].
+    pub interiors: &'b [Interior],
+    /// What lies behind materials, by [`super::MaterialId`]; those beyond the end have none.
+    pub fillings: &'b [Option<InteriorId>],
     /// Placed directly in the world.
     pub surfaces: &'b [SurfaceDef],
     /// By [`ObjectId`].

@@ -3,6 +3,7 @@ use super::{Interaction, MaterialId};
 use crate::{
     bsdf::{Bsdf, Scatter},
     math::Frame,
+    medium::Medium,
 };
 use glam::{Vec2, Vec3};
 
@@ -29,7 +30,7 @@ impl Record {
         let p_error = at.p_error.dot(across) / across.element_sum();
         Self { p: at.p, ng: at.ng, n: at.frame.n, wo: at.wo, uv: at.uv, p_error, material: at.material }
     }
-    /// The hit with its scattering. It has no light and a distance of 0.
+    /// The hit with its scattering. It has no light, a distance of 0, and empty space on both sides.
     #[inline]
     pub(super) fn with(&self, bsdf: Bsdf) -> Interaction {
         let gathers = bsdf.is_connectible();
@@ -45,6 +46,8 @@ impl Record {
             material: self.material,
             gathers,
             light: None,
+            near: Medium::VACUUM,
+            far: Medium::VACUUM,
         }
     }
     /// Whether light that goes from here in direction `d` leaves on one side by both normals: elsewhere none does.

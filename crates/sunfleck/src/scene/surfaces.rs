@@ -5,7 +5,7 @@ use super::{
 };
 use crate::{
     bsdf::{
-        Lookup,
+        Lookup, ThinDielectric,
         cover::{Coin, Covered, Site, cover, opacity},
     },
     math::Ray,
@@ -13,6 +13,9 @@ use crate::{
 };
 use accel::Hit;
 use glam::{Mat3A, Vec3};
+
+/// What the toss for a hole that is met as a surface is for.
+const HOLE: u64 = 0x686f_6c65;
 
 impl World<'_> {
     /// The first surface along `ray` (unit direction), materials resolved.
@@ -50,7 +53,7 @@ impl World<'_> {
     }
 
     #[inline]
-    fn surface(&self, hit: &Hit) -> (&Surface, Option<&Placement>) {
+    pub(super) fn surface(&self, hit: &Hit) -> (&Surface, Option<&Placement>) {
         let Moment { surfaces, placements, .. } = &*self.moment;
         if hit.instance == Hit::NO_INSTANCE {
             return (&surfaces[hit.geometry as usize], None);
@@ -60,7 +63,7 @@ impl World<'_> {
     }
     /// The surface that was hit and the point on it, in world space.
     #[inline(always)]
-    fn locate(&self, hit: &Hit, ray: &Ray) -> (&Surface, SurfacePoint) {
+    pub(super) fn locate(&self, hit: &Hit, ray: &Ray) -> (&Surface, SurfacePoint) {
         let at = ray.o + hit.t * ray.d;
         let (surface, placed) = self.surface(hit);
         let wants_uv = self.scene.looks[surface.material.0 as usize].at_uv;
@@ -80,7 +83,13 @@ impl World<'_> {
             outside: ray.d.dot(point.ng) < 0.0,
             coin: Coin::new(ray),
         };
-        cover(surface.material, site)
+        let covered = cover(surface.material, site);
+        let filled = self.scene.looks[surface.material.0 as usize].interior.is_some();
+        // A hole in what has an interior leads into it.
+        if filled && site.coin.toss(HOLE) >= opacity(surface.material, site.materials, &at) {
+            return Covered { bsdf: ThinDielectric::NOTHING.into(), ..covered };
+        }
+        covered
     }
     /// How the point of a hit moves in the world with its texture coordinates.
     fn tangents(&self, hit: &Hit, ray: &Ray) -> Option<Tangents> {
@@ -105,7 +114,7 @@ impl World<'_> {
         self.moment.bvh.occluded_filtered(ray, |hit| self.meets(hit, ray, coin))
     }
     /// Whether `ray` meets the surface of `hit`, or a hole in it.
-    fn meets(&self, hit: &Hit, ray: &Ray, coin: Coin) -> bool {
+    pub(super) fn meets(&self, hit: &Hit, ray: &Ray, coin: Coin) -> bool {
         let (surface, _) = self.surface(hit);
         if !self.scene.porous[surface.material.0 as usize] || surface.light.is_some() {
             return true;

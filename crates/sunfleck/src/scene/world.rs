@@ -1,5 +1,5 @@
 //! The scene as one pass sees it: at one set of wavelengths and at one time.
-use super::{Interaction, Scene, moment::Moment};
+use super::{Interaction, Scene, filled::Filled, moment::Moment};
 use crate::{
     bsdf::Bsdf,
     camera::{Camera, Project},
@@ -16,6 +16,7 @@ pub struct World<'s> {
     pub(super) around: Surroundings,
     time: f32,
     pub(super) moment: Arc<Moment>,
+    pub(super) filled: Filled,
     camera: Cow<'s, Camera>,
 }
 
@@ -46,7 +47,10 @@ impl<'s> World<'s> {
             None => Cow::Borrowed(&scene.camera),
             Some(to) => Cow::Owned(scene.camera.between(to, time).expect("a way that was found when it was built")),
         };
-        Self { scene, around, time, moment: scene.geometry.at(&scene.lights, &around, time), camera }
+        let moment = scene.geometry.at(&scene.lights, &around, time);
+        let mut world = Self { scene, around, time, moment, filled: Filled::default(), camera };
+        world.fill();
+        world
     }
     /// The scene behind it.
     pub fn scene(&self) -> &'s Scene {

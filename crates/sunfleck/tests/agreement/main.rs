@@ -131,4 +131,9 @@ agreement![
     coverings,
     mixed_mirror,
     layers,
+    absorbing_ball,
+    overlapping_balls,
+    under_water,
+    frosted_wine,
+    filled_holes,
 ];

@@ -1,5 +1,6 @@
 //! Tiny scenes, each with one thing that algorithms get wrong.
 mod covered;
+mod filled;
 mod lights;
 mod moving;
 
@@ -81,6 +82,21 @@ pub(crate) const SCENES: &[TinyScene] = &[
     tiny("coverings", "holes, two sides, normals and bumps from pictures, brushed metal", NONE, covered::coverings),
     tiny("mixed_mirror", "a mirror mixed with paint behind a pane", LIGHT, covered::mixed_mirror),
     tiny("layers", "polished plastic, a principled ball that is partly clear, paper", LIGHT, covered::layers),
+    tiny("absorbing_ball", "green glass around a lamp and a matt ball", LIGHT, filled::absorbing_ball),
+    tiny(
+        "overlapping_balls",
+        "glass and water in the same place, and a lamp in both",
+        LIGHT,
+        filled::overlapping_balls,
+    ),
+    tiny("under_water", "eye, lamp and room in water, with a bubble", LIGHT, filled::under_water),
+    tiny(
+        "frosted_wine",
+        "frosted glass that absorbs, with a point light in it, in a pool",
+        LIGHT,
+        filled::frosted_wine,
+    ),
+    tiny("filled_holes", "a filled shell with holes", LIGHT, filled::filled_holes),
 ];
 
 /// A room 2 x 2 x 2 around the origin with an open front at z = 1, walls of three colours, and the eye before it.

@@ -245,11 +245,9 @@ impl Look<'_> {
             return;
         }
         self.rays += 1;
-        if world.occluded(&at.spawn_toward(li.wi, &li.end)) {
-            return;
-        }
+        let Some(passed) = world.passed(at, &at.spawn_toward(li.wi, &li.end)) else { return };
         let weight = self.joins().nee(sums, at, &d);
-        self.add(Technique::Nee, a.beta * f * li.li * (1.0 / li.pdf), weight);
+        self.add(Technique::Nee, a.beta * f * li.li * passed * (1.0 / li.pdf), weight);
     }
 
     /// Connections to the vertices of one light path.
@@ -277,12 +275,10 @@ impl Look<'_> {
                 continue;
             }
             self.rays += 1;
-            if eye.world.occluded(&a.at.spawn_to_surface(wi, &end.at)) {
-                continue;
-            }
+            let Some(passed) = eye.world.passed(a.at, &a.at.spawn_to_surface(wi, &end.at)) else { continue };
             let weight = self.joins().connect(sums, a.at, &end, wi, d2);
             let join = Spectrum::join(a.dispersed, v.dispersed());
-            self.add(Technique::Connect, a.beta * f * v.flux() * (join / d2), weight);
+            self.add(Technique::Connect, a.beta * f * v.flux() * passed * (join / d2), weight);
         }
     }
 

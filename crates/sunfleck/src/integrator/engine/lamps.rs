@@ -96,7 +96,7 @@ impl<'w> Lamps<'w> {
             beta = beta / survive;
             carries = least;
         }
-        let start = Start { ray: a.at.spawn(s.wi), beta, mode: Transport::Radiance, dispersed };
+        let start = Start { beta, dispersed, ..a.branch(self.world, s, Transport::Radiance) };
         self.waiting.push(Branch { start, carries, eta_scale, scatterings: self.now.scatterings + 1 });
     }
 }
@@ -193,7 +193,7 @@ mod tests {
                 let mut sampler = Sampler::new(u64::from(tree), Domain::Prepare, 0, i);
                 let raster = sampler.next_2d();
                 let ray = world.camera().ray(pixel.unwrap_or(raster), Vec2::ZERO).ray;
-                let start = Start { ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
+                let start = Start::from_camera(&world, ray);
                 if tree {
                     let lamps = Lamps::look(&world, &start, limits, &mut sampler);
                     rays += u64::from(lamps.rays);

@@ -242,11 +242,11 @@ impl Shine<'_, '_> {
             return;
         }
         self.out.counts.rays += 1;
-        if shower.world.occluded(&a.at.spawn_to(c.wi, c.p)) {
-            return;
-        }
+        let Some(passed) = shower.world.passed(a.at, &a.at.spawn_to(c.wi, c.p)) else { return };
         let weight = if shower.only.is_some_and(|o| !o.weighted) { 1.0 } else { self.light_image_weight(a, s, &c) };
-        self.out.splats.push(Splat { raster: c.raster, value: (value * weight).to_rgb(shower.world.lambda()) });
+        self.out
+            .splats
+            .push(Splat { raster: c.raster, value: (value * passed * weight).to_rgb(shower.world.lambda()) });
     }
     fn light_image_weight(&self, a: &Arrival, s: &Sums, c: &CameraSample) -> f32 {
         let shower = self.shower;

@@ -367,7 +367,7 @@ impl Prepared<'_> {
                 partner: job.partner(x + y * spec.width),
             };
             let mut look = Look::new(&eye, start, counts);
-            let (limits, start_ray) = (&self.engine.limits, ray.start());
+            let (limits, start_ray) = (&self.engine.limits, ray.start(&world));
             let rays = walk(&world, &start_ray, limits, &mut ray.sampler, &mut look);
             if rule.on.hit && look.began_with_delta() {
                 // The numbers go on from those of the walk.

@@ -108,8 +108,7 @@ impl CameraWalk<'_, '_> {
             let (u_lobe, u) = lattice(i, n, shift);
             // Delta lobes are part of the camera path.
             let Some(s) = a.at.sample(u_lobe, u, Transport::Radiance).filter(|s| !s.delta) else { continue };
-            let start =
-                Start { ray: a.at.spawn(s.wi), beta: s.weight, mode: Transport::Radiance, dispersed: a.dispersed };
+            let start = a.branch(world, &s, Transport::Radiance);
             walker.rays += walk(world, &start, &limits, sampler, &mut walker);
         }
         let (sum, rays) = (walker.sum, walker.rays);

@@ -1,12 +1,10 @@
 //! What the camera needs: places where photons will be gathered, and what its paths meet on the way.
 use crate::{
-    bsdf::Transport,
     camera::{Project, Spread},
     film::FilmSpec,
     photon::{Reach, Sighting},
     sampler::{Domain, Sampler},
     scene::{Interaction, World},
-    spectrum::Spectrum,
     walk::{Arrival, Escape, Limits, Start, Step, Visit, walk},
 };
 use glam::Vec3;
@@ -45,7 +43,7 @@ impl Needs {
         let look = |index| {
             let mut sampler = Sampler::new(seed, Domain::Prepare, u64::MAX - 1, index);
             let camera = world.camera().ray(sampler.next_2d(), sampler.next_2d());
-            let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
+            let start = Start::from_camera(world, camera.ray);
             let mut glance = Glance::new(world, camera.spread.of_pixel(spec.pixels()));
             walk(world, &start, &limits, &mut sampler, &mut glance);
             (glance.spot, glance.bent, glance.met)
@@ -108,8 +106,8 @@ fn irradiance(world: &World, at: &Interaction, n: Vec3, sampler: &mut Sampler) -
     let one = |(u_light, u)| {
         let li = world.sample_direct(at.p, u_light, u)?.li;
         let cos = n.dot(li.wi);
-        let seen = cos > 0.0 && !world.occluded(&at.spawn_toward(li.wi, &li.end));
-        seen.then_some(li.li.mean() * cos / li.pdf)
+        let passed = if cos > 0.0 { world.passed(at, &at.spawn_toward(li.wi, &li.end))? } else { return None };
+        Some((li.li * passed).mean() * cos / li.pdf)
     };
     let sum: f32 = (0..CONNECTIONS).filter_map(|_| one((sampler.next_1d(), sampler.next_2d()))).sum();
     sum / CONNECTIONS as f32

@@ -90,7 +90,7 @@ impl Volley {
         let limits = Limits { scatterings: self.limits.scatterings.checked_sub(1)?, ..self.limits };
         let mut sampler = Sampler::new(self.seed, Domain::Prepare, self.round, index);
         let drawn = mixture.sample(world, sampler.next_1d(), sampler.next_2d(), sampler.next_2d())?;
-        let start = Emission::new(drawn.light, drawn.prob, drawn.le)?.start;
+        let start = Emission::new(world, drawn.light, drawn.prob, drawn.le)?.start;
         let start = Start { beta: start.beta / self.paths as f32, ..start };
         let mut land = Land { direct: self.direct, first: None, landings: Vec::new() };
         walk(world, &start, &limits, &mut sampler, &mut land);

@@ -135,8 +135,9 @@ impl Clerk<'_> {
 
 impl Visit for Clerk<'_> {
     fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
-        self.arrive(a.beta);
+        self.arrive(a.departed);
         let flux = watts(a.beta);
+        self.account().absorbed.watts += watts(a.departed) - flux;
         if self.tracer.audit.keep.keeps(a) && a.at.gathers {
             self.account().stored.add(flux);
             self.page.positions.push(a.at.p);

@@ -4,13 +4,11 @@ use super::{
     book::{Kept, Page},
 };
 use crate::{
-    bsdf::Transport,
     camera::Project,
     film::FilmSpec,
     photon::RadiusMap,
     sampler::{Domain, Sampler},
     scene::{Interaction, World},
-    spectrum::Spectrum,
     walk::{Arrival, Start, Step, Visit, walk},
 };
 use glam::Vec3;
@@ -59,7 +57,7 @@ fn look(audit: &Audit, world: &World, map: &RadiusMap<Found>, index: u64, marked
     let mut sampler = Sampler::new(audit.seed, Domain::Prepare, PASS, index);
     let raster = sampler.next_2d();
     let camera = world.camera().ray(raster, sampler.next_2d());
-    let start = Start { ray: camera.ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false };
+    let start = Start::from_camera(world, camera.ray);
     let mut first = First(None);
     walk(world, &start, &audit.limits, &mut sampler, &mut first);
     let Some(at) = first.0 else { return };

@@ -16,6 +16,7 @@ use crate::{
     film::{FilmSpec, Filter},
     integrator::{bdpt, unified, vcm},
     light::{LeOrigin, LiSample, LightEnd},
+    medium::Inside,
     photon::{Radii, Source},
     sampler::{Domain, Sampler},
     scene::{DirectSample, Interaction, MID_SHUTTER, Scattered, World},
@@ -88,7 +89,9 @@ impl Setting<'_> {
             track.depart_from_light(&self.rule, &at, &scattered(&at, v.at.wo, v.delta), merges);
             delta = v.delta;
             let (beta, pdf, all_delta, dispersed, travelled) = (Spectrum::ONE, 1.0, false, false, 0.0);
-            let arrival = Arrival { at: &at, beta, scatterings, pdf, delta, all_delta, dispersed, travelled };
+            let (departed, inside) = (beta, &Inside::NOTHING);
+            let arrival =
+                Arrival { at: &at, beta, departed, scatterings, pdf, delta, all_delta, dispersed, travelled, inside };
             among.push(self.world, &arrival, &sums, merges);
         }
         among.end_path();
