@@ -5,8 +5,9 @@ use super::params::{Found, Params};
 use super::state::Cover;
 use glam::Vec3;
 use sunfleck::bsdf::{
-    BumpMapMaterial, CookTorranceMaterial, MaskMaterial, Material, NRendererPhongMaterial, NormalMapMaterial,
-    PhongMaterial, PlasticMaterial, PrincipledMaterial, Roughness, Scalar, TurnedMaterial, TwoSidedMaterial,
+    BumpMapMaterial, CookTorranceMaterial, FilmMaterial, MaskMaterial, Material, NRendererPhongMaterial,
+    NormalMapMaterial, PhongMaterial, PlasticMaterial, PrincipledMaterial, Roughness, Scalar, TurnedMaterial,
+    TwoSidedMaterial,
 };
 use sunfleck::scene::MaterialId;
 
@@ -30,6 +31,12 @@ const MODELS: [&str; 13] = [
 ];
 
 impl Importer<'_> {
+    fn thin_film(&mut self, params: &Params) -> Found<Option<FilmMaterial>> {
+        let share = self.scalar(params, "film", 0.0)?;
+        let (ior, thickness) = (params.number("filmior", 1.3)? as f32, self.scalar(params, "filmthickness", 400.0)?);
+        Ok((share != 0.0.into()).then_some(FilmMaterial { share, ior, thickness }))
+    }
+
     /// A model of ours, `name` without its beginning.
     pub(super) fn our_model(&mut self, name: &str, params: &Params) -> Found<Cover> {
         // What stands there for pbrt.
@@ -84,6 +91,7 @@ impl Importer<'_> {
                     coat_ior: params.number("coatior", 1.5)? as f32,
                     sheen,
                     sheen_roughness: self.scalar(params, "sheenroughness", 0.3)?,
+                    film: self.thin_film(params)?,
                     ..PrincipledMaterial::new(base)
                 }
                 .into()

@@ -64,6 +64,13 @@ pub fn conductor(cos_i: f32, eta: Spectrum, k: Spectrum) -> Spectrum {
     })
 }
 
+/// The index of refraction (over that of the outside, ≥ 1) of a clear medium that reflects `f0` along the normal.
+#[inline]
+pub(super) fn f0_to_ior(f0: f32) -> f32 {
+    let r = f0.clamp(0.0, 0.9999).sqrt();
+    (1.0 + r) / (1.0 - r)
+}
+
 /// Schlick's approximation: from `f0` along the normal to 1 at grazing angles (Schlick 1994, "An Inexpensive BRDF Model
 /// for Physically-based Rendering", eq. 15).
 #[inline]

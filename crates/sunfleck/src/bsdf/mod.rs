@@ -24,6 +24,7 @@ mod diffuse_transmission;
 mod disney;
 mod disney_thin;
 mod facets;
+mod film;
 pub mod fresnel;
 pub mod ggx;
 mod mirror;
@@ -49,6 +50,7 @@ pub use diffuse_transmission::{DiffuseTransmission, DiffuseTransmissionMaterial}
 pub use disney::{Disney, DisneyMaterial};
 pub use disney_thin::{DisneyThin, DisneyThinMaterial};
 pub use facets::{Facets, Landscape};
+pub use film::FilmMaterial;
 pub use mirror::{Mirror, MirrorMaterial};
 pub use nrenderer_phong::{NRendererPhong, NRendererPhongMaterial};
 pub use phong::{Phong, PhongMaterial};

@@ -2,6 +2,7 @@
 use super::{
     BsdfSample, Lookup, Model, Roughness, Scalar, Scatter, TextureId, Transport,
     albedo::{Albedo, TabulatedSheen},
+    film::{Film, FilmMaterial},
     fresnel::schlick,
     ggx::{Ggx, reflect_up},
     packed::{Unit, UnitSpectrum},
@@ -42,6 +43,8 @@ pub struct PrincipledMaterial {
     pub sheen: Option<TextureId>,
     /// Perceived roughness of the sheen, in [0, 1].
     pub sheen_roughness: Scalar,
+    /// A thin film on gloss and metal, below the coat, which makes them iridescent.
+    pub film: Option<FilmMaterial>,
 }
 
 impl PrincipledMaterial {
@@ -59,6 +62,7 @@ impl PrincipledMaterial {
             coat_ior: 1.5,
             sheen: None,
             sheen_roughness: 0.3.into(),
+            film: None,
         }
     }
 }
@@ -94,12 +98,14 @@ impl Model for PrincipledMaterial {
             coat_alpha: Unit::new(square(self.coat_roughness).max(Ggx::MIN_ALPHA)),
             sheen: UnitSpectrum::new(self.sheen.map_or(Spectrum::BLACK, unit)),
             sheen_alpha: Unit::new(square(self.sheen_roughness)),
+            film: self.film.map_or(Film::NONE, |film| Film::new(&film, at)),
         }
     }
     fn textures(&self) -> Vec<TextureId> {
         let scalars = [self.metallic, self.ior, self.specular, self.coat, self.coat_roughness, self.sheen_roughness];
+        let film = self.film.iter().flat_map(|f| [f.share, f.thickness]);
         let colours = [Some(self.base), self.specular_color, self.sheen];
-        let scalars = scalars.into_iter().filter_map(Scalar::texture);
+        let scalars = scalars.into_iter().chain(film).filter_map(Scalar::texture);
         colours.into_iter().flatten().chain(scalars).chain(self.roughness.textures()).collect()
     }
     fn is_aligned(&self) -> bool {
@@ -112,6 +118,8 @@ impl Model for PrincipledMaterial {
 /// - **Gloss**: GGX with Schlick's Fresnel factor, as glTF has it.
 /// - **Matt part**: `base/π (1 − R(o))(1 − R(i))/(1 − R̄)` (Kelemen & Szirmay-Kalos 2001), R being the tabulated albedo of the
 ///   gloss: what the gloss does not reflect reaches the base, and a white base loses nothing.
+/// - **Film**: takes the place of Schlick's factor. The matt part gets what the gloss does not reflect at its most iridescent, so
+///   nothing gives back more than it gets.
 /// - **Metal**: what facets keep from each other comes back after more bounces (Kulla & Conty 2017, "Revisiting Physically Based
 ///   Shading at Imageworks"), tinted by each.
 /// - **Coat and sheen** take what they reflect from what is below: by the angle at which they take more, so that it is
@@ -128,14 +136,16 @@ pub struct Principled {
     pub(super) coat_f0: Unit,
     pub(super) coat_alpha: Unit,
     pub(super) sheen_alpha: Unit,
+    pub(super) film: Film,
 }
 
 /// What does not depend on `wi`: a view of the closure from `wo`, which is above the surface.
 struct View {
     up: Local,
     metallic: f32,
-    /// Reflectance of gloss and metal along the normal, and at grazing angles.
+    /// Reflectance of gloss and metal along the normal, the same at most with the film, and at grazing angles.
     f0: Spectrum,
+    most: Spectrum,
     f90: f32,
     albedo: Albedo,
     /// What the gloss of the non-metal leaves to its matt part.
@@ -158,9 +168,11 @@ impl Principled {
         coat_f0: Unit::ZERO,
         coat_alpha: Unit::ZERO,
         sheen_alpha: Unit::ZERO,
+        film: Film::NONE,
     };
+    /// Reflectance of the gloss along the normal, at most.
     fn f0_matt(&self) -> Spectrum {
-        self.f0.get()
+        self.film.most(self.f0.get())
     }
     fn cloth(&self) -> TabulatedSheen {
         TabulatedSheen::new(self.sheen_alpha.get())
@@ -190,16 +202,17 @@ impl Principled {
         let albedo = Albedo::new((alpha.x * alpha.y).sqrt());
         let f90 = self.f90.get();
         let gloss = albedo.of(self.f0_matt(), f90, cos);
-        let f0 = self.f0_matt() * (1.0 - metallic) + self.base * metallic;
+        let f0 = self.f0.get() * (1.0 - metallic) + self.base * metallic;
+        let most = self.film.most(f0);
         let f90_mixed = f90 * (1.0 - metallic) + metallic;
         let below = (Spectrum::ONE - gloss) * (1.0 - metallic);
         let coat = self.coat_albedo(cos);
         let through = self.through(cos);
-        let glossy = through * albedo.of(f0, f90_mixed, cos).max();
+        let glossy = through * albedo.of(most, f90_mixed, cos).max();
         let matt = through * ((self.base * below).max() + metallic * (1.0 - albedo.whole(cos)))
             + if self.sheen.is_black() { 0.0 } else { self.sheen.get().max() * self.cloth().albedo(cos) };
         let (prob_coat, prob_gloss) = shares(coat, glossy, matt);
-        View { up, metallic, f0, f90: f90_mixed, albedo, below, prob_coat, prob_gloss }
+        View { up, metallic, f0, most, f90: f90_mixed, albedo, below, prob_coat, prob_gloss }
     }
     /// Matt part and metal's further bounces toward `wi`, 1/sr.
     fn even(&self, v: &View, wi: Local) -> Spectrum {
@@ -227,7 +240,8 @@ impl Principled {
         if let Some(g) = self.ggx.glint(v.up, wi) {
             let x = (1.0 - g.cos).clamp(0.0, 1.0);
             let x5 = x * x * x * x * x;
-            f += (v.f0 * (1.0 - x5) + Spectrum::splat(v.f90 * x5)) * g.f;
+            let schlick = |f0: Spectrum| f0 * (1.0 - x5) + Spectrum::splat(v.f90 * x5);
+            f += self.film.over(schlick(v.f0), v.f0, schlick(v.most), g.cos) * g.f;
         }
         f *= self.through(v.up.cos_theta()).min(self.through(wi.cos_theta()));
         if self.coat.get() > 0.0

@@ -14,6 +14,7 @@
 mod cie_tables;
 mod colour;
 mod curve;
+mod fringes;
 mod ior;
 mod named;
 mod observer;
@@ -23,6 +24,7 @@ mod wavelengths;
 
 pub use colour::{Colour, Illuminant};
 pub use curve::{CHANNELS_NM, Curve, CurveError};
+pub(crate) use fringes::fringe;
 pub use ior::Ior;
 pub use named::{NAMED, Named, named};
 pub use packed::PackedSpectrum;

@@ -213,6 +213,12 @@ fn layered(s: &mut Shelf) {
         let cloth = PrincipledMaterial { sheen: Some(white), sheen_roughness: r.into(), ..plain };
         s.add(&format!("cloth {r}"), cloth);
         let half = PrincipledMaterial { coat: 0.5.into(), metallic: 0.3.into(), base: body, ..cloth };
+        let film = |thickness: f32| Some(FilmMaterial { share: 1.0.into(), ior: 1.8, thickness: thickness.into() });
+        s.add(&format!("film on paint {r}"), PrincipledMaterial { film: film(280.0), ..rough });
+        s.add(
+            &format!("film on metal {r}"),
+            PrincipledMaterial { film: film(450.0), metallic: 1.0.into(), base: body, ..rough },
+        );
         s.add(&format!("all {r}"), PrincipledMaterial { coat_roughness: 0.4.into(), ..half });
     }
     let brushed = Roughness::aligned(0.8.into(), 0.3.into());

@@ -6,8 +6,9 @@ use super::materials::ior;
 use super::textures::Role;
 use glam::Vec3;
 use serde_json::Value;
-use sunfleck::bsdf::PrincipledMaterial;
+use sunfleck::bsdf::{FilmMaterial, PrincipledMaterial, Scalar};
 use sunfleck::scene::TextureId;
+use sunfleck::texture::{Channel, Mix, Texture};
 
 /// Reflectance along the normal at an index of 1.5.
 const F0: f32 = 0.04;
@@ -48,10 +49,27 @@ impl Importer<'_> {
             let factor = unit(sheen, "sheenRoughnessFactor", 0.0);
             model.sheen_roughness = self.channel(sheen.field("sheenRoughnessTexture"), 3, factor);
         }
-        if json.extension("KHR_materials_iridescence").is_some_and(|e| e.number("iridescenceFactor", 0.0) > 0.0) {
-            self.note("gltf::iridescence", name, "the colours of its thin film are left out");
+        if let Some(film) = json.extension("KHR_materials_iridescence") {
+            let share = self.channel(film.field("iridescenceTexture"), 0, unit(film, "iridescenceFactor", 0.0));
+            if share != 0.0.into() {
+                let thickness = self.thickness(film);
+                model.film = Some(FilmMaterial { share, ior: film.number("iridescenceIor", 1.3), thickness });
+            }
         }
         model
+    }
+
+    /// Of a thin film, nm: its most, or between its least and its most by a picture.
+    fn thickness(&mut self, film: &Value) -> Scalar {
+        let [least, most] = [("iridescenceThicknessMinimum", 100.0), ("iridescenceThicknessMaximum", 400.0)]
+            .map(|(key, default)| film.number(key, default).max(0.0));
+        let Some(picture) = self.texture(film.field("iridescenceThicknessTexture"), Role::Data) else {
+            return most.into();
+        };
+        let builder = self.target.builder();
+        let [from, to] = [least, most].map(|v| builder.constant(Vec3::splat(v)));
+        let amount = builder.texture(Texture::Channel(Channel { of: picture.id, channel: 1 }));
+        builder.texture(Texture::Mix(Mix { from, to, amount })).into()
     }
 
     /// The older model: matt colour, reflectance along the normal, and glossiness.

@@ -173,6 +173,11 @@ impl Writer<'_> {
                 exact += &self.colour_param(name, id)?;
             }
         }
+        if let Some(film) = m.film {
+            exact += &self.scalar_param("film", film.share)?;
+            exact += &float("filmior", film.ior);
+            exact += &self.scalar_param("filmthickness", film.thickness)?;
+        }
         // What shows most, where it is the same everywhere.
         let is_metal = matches!(m.metallic, Scalar::Constant(metallic) if metallic > 0.5);
         let mut near = near;
