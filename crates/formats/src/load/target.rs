@@ -4,6 +4,7 @@ use super::{CameraSettings, Hints, InputHash};
 use crate::diagnostic::{Diagnostic, Sink};
 use glam::{Affine3A, Vec3};
 use sunfleck::light::{Light, Sides};
+use sunfleck::medium::InteriorId;
 use sunfleck::scene::{MaterialId, ObjectId, SceneBuilder, SurfaceDef};
 use sunfleck::shape::Shape;
 use sunfleck::spectrum::Illuminant;
@@ -61,6 +62,14 @@ impl Target {
     /// Notes what a file calls a material, so that it can be asked for by name.
     pub(crate) fn name_material(&mut self, name: &str, id: MaterialId) {
         self.names.push((name.to_owned(), id));
+    }
+
+    /// `of` with `interior` behind it, and with the same name.
+    pub(crate) fn filled(&mut self, of: MaterialId, interior: InteriorId) -> MaterialId {
+        let id = self.builder.filled(of, interior);
+        let names: Vec<_> = self.names.iter().filter(|(_, named)| *named == of).map(|(n, _)| n.clone()).collect();
+        self.names.extend(names.into_iter().map(|name| (name, id)));
+        id
     }
 
     /// Notes the bytes of an input file.

@@ -14,6 +14,7 @@ mod emitters;
 mod filters;
 mod import;
 mod indices;
+mod media;
 mod metals;
 mod metals_table;
 mod picture;

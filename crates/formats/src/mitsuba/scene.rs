@@ -9,7 +9,8 @@ use crate::diagnostic::Diagnostic;
 use crate::files::Files;
 use crate::load::Target;
 use std::collections::{HashMap, HashSet};
-use sunfleck::scene::ObjectId;
+use sunfleck::medium::InteriorId;
+use sunfleck::scene::{MaterialId, ObjectId};
 
 /// Makes a scene of a document.
 pub(super) struct Importer<'d, 't> {
@@ -22,6 +23,10 @@ pub(super) struct Importer<'d, 't> {
     pub(super) groups: HashMap<usize, Option<ObjectId>>,
     /// Pictures that were read.
     pub(super) pictures: HashMap<Picture, Option<Made>>,
+    /// Media by element; `None` for those that are left out.
+    pub(super) media: HashMap<usize, Option<InteriorId>>,
+    /// Materials with something behind them.
+    pub(super) fillings: HashMap<(MaterialId, InteriorId), MaterialId>,
     /// The material of shapes that have none.
     pub(super) plain: Option<Cover>,
     /// Elements that are being made, to see when one is made of itself.
@@ -39,6 +44,8 @@ impl<'d, 't> Importer<'d, 't> {
             textures: HashMap::new(),
             groups: HashMap::new(),
             pictures: HashMap::new(),
+            media: HashMap::new(),
+            fillings: HashMap::new(),
             plain: None,
             busy: Vec::new(),
             told: HashSet::new(),

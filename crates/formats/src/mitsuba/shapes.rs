@@ -68,15 +68,12 @@ impl<'d> Importer<'d, '_> {
     fn surfaces(&mut self, props: &Props<'d>) -> Found<Vec<SurfaceDef>> {
         props.ignore(&["name", "silhouette_sampling_weight", "max_smooth_angle", "collapse", "src_indices"]);
         let emission = self.emission(props)?;
-        let media = props.objects("medium")?;
-        if let Some(medium) = media.first() {
-            let medium = self.props(*medium);
-            self.warn_once("mitsuba::medium", "", &medium, "media are left out: volumes are not supported yet");
-        }
+        let has_media = !props.objects("medium")?.is_empty();
+        let filling = self.filling(props)?;
         let is_flipped = props.element.plugin()?.0 == "obj" && props.boolean("flip_tex_coords", true)?;
         let cover = match props.object("bsdf")? {
             Some(number) => self.cover(Wanted { number, both_sides: false, is_flipped })?,
-            None if props.element.is_old && !media.is_empty() => {
+            None if props.element.is_old && has_media => {
                 let material = self.target.builder().material(NullMaterial);
                 Cover { material, is_nothing: true, varies: false }
             }
@@ -91,10 +88,10 @@ impl<'d> Importer<'d, '_> {
                 "light does not enter surfaces yet: this is left out",
             );
         }
-        let material = cover.material;
+        let material = filling.map_or(cover.material, |interior| self.filled(cover.material, interior));
         let picture = match emission {
             Glow::Picture(picture) => picture,
-            Glow::Nothing if cover.is_nothing => return Ok(Vec::new()),
+            Glow::Nothing if cover.is_nothing && filling.is_none() => return Ok(Vec::new()),
             Glow::Nothing => {
                 let shape = self.geometry(props, cover.varies)?;
                 return Ok(shape.into_iter().map(|shape| SurfaceDef { shape, material, emission: None }).collect());

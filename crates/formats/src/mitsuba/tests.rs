@@ -2,6 +2,7 @@
 
 mod lights;
 mod looks;
+mod media;
 
 use super::serialized::tests::file as serialized_file;
 use crate::image::{RgbImage32, Tone, write_image};

@@ -42,6 +42,11 @@ impl Importer<'_> {
         if let Some((_, surfaces)) = &mut self.object {
             surfaces.iter_mut().filter(|s| s.material == old).for_each(|s| s.material = new);
         }
+        let filled: Vec<_> = self.fillings.iter().filter(|f| f.0 == old).copied().collect();
+        for (_, interior, old) in filled {
+            let new = self.filled(new, interior);
+            self.exchange(old, new);
+        }
     }
 
     pub(super) fn named_material(&mut self, name: &str, at: &At) {

@@ -17,6 +17,7 @@ use glam::DAffine3;
 use std::collections::{HashMap, HashSet};
 use std::rc::Rc;
 use sunfleck::bsdf::Scalar;
+use sunfleck::medium::InteriorId;
 use sunfleck::scene::{MaterialId, ObjectId, SurfaceDef};
 use sunfleck::spectrum::Colour;
 
@@ -46,6 +47,13 @@ pub(super) struct Importer<'t> {
     pub(super) awaited: HashMap<String, (MaterialId, At)>,
     /// Materials with holes, by what is pierced and how.
     pub(super) masks: Vec<(MaterialId, Scalar, MaterialId)>,
+    /// Materials with something behind them, by what they are and what that is.
+    pub(super) fillings: Vec<(MaterialId, InteriorId, MaterialId)>,
+    pub(super) media: HashMap<Rc<str>, InteriorId>,
+    /// The material of what is a boundary of media only.
+    pub(super) nothing: Option<MaterialId>,
+    /// An interior that takes nothing.
+    pub(super) empty: Option<InteriorId>,
     pub(super) meshes: MeshCache,
     pub(super) textures: Textures,
     pub(super) objects: HashMap<String, Option<ObjectId>>,
@@ -70,6 +78,10 @@ impl<'t> Importer<'t> {
             named_materials: HashMap::new(),
             awaited: HashMap::new(),
             masks: Vec::new(),
+            fillings: Vec::new(),
+            media: HashMap::new(),
+            nothing: None,
+            empty: None,
             meshes: MeshCache::default(),
             textures: Textures::default(),
             objects: HashMap::new(),
@@ -169,7 +181,7 @@ impl<'t> Importer<'t> {
         }
         let name = self.string(&at)?;
         match word {
-            "MediumInterface" => return self.medium_interface(&at),
+            "MediumInterface" => return self.medium_interface(&name, &at),
             "NamedMaterial" => {
                 self.named_material(&name, &at);
                 return Ok(());
@@ -201,10 +213,7 @@ impl<'t> Importer<'t> {
             "AreaLightSource" => self.state.area_light = Some(Rc::new(self.area_light(&name, params)?)),
             "Material" => self.state.cover = Some(self.material(&name, params)?),
             "MakeNamedMaterial" => self.make_named_material(&name, params)?,
-            "MakeNamedMedium" => {
-                let message = format!("the medium `{}` is left out: volumes are not supported yet", shortened(&name));
-                self.warn_once("pbrt::medium", "", || params.at.tell(warning("pbrt::medium", message), ""));
-            }
+            "MakeNamedMedium" => self.make_named_medium(&name, params)?,
             _ => {}
         }
         Ok(())
@@ -257,15 +266,6 @@ impl<'t> Importer<'t> {
         let path = self.files.find(&token.at.text(), token.at.source.name());
         let source = self.files.include(&path, self.target).map_err(|e| Box::new(token.at.tell(*e, "named here")))?;
         self.tokens.include(source, &token.at)
-    }
-
-    /// The second name is optional: version 3 gives one for both sides.
-    fn medium_interface(&mut self, at: &At) -> Found<()> {
-        let second = self.tokens.next_if(Kind::String)?;
-        drop(second);
-        let message = "the space between surfaces is taken as empty: volumes are not supported yet";
-        self.warn_once("pbrt::medium", "interface", || at.tell(warning("pbrt::medium", message), ""));
-        Ok(())
     }
 
     fn attribute(&mut self, kind: &str, params: Params) -> Found<()> {

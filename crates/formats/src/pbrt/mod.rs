@@ -22,6 +22,7 @@ mod lens;
 mod lexer;
 mod lights;
 mod materials;
+mod media;
 mod meshes;
 mod mitsubas;
 mod ours;

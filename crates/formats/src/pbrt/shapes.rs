@@ -7,7 +7,7 @@ use super::state::Cover;
 use crate::ply::{self, PlyMesh};
 use crate::tessellate::valid;
 use glam::{Affine3A, DAffine3, Vec2, Vec3};
-use sunfleck::bsdf::{BlackMaterial, Scalar};
+use sunfleck::bsdf::{BlackMaterial, NullMaterial, Scalar};
 use sunfleck::light::Sides;
 use sunfleck::math::Motion;
 use sunfleck::scene::{MaterialId, SurfaceDef};
@@ -129,8 +129,10 @@ impl Importer<'_> {
             Some(light) => self.emission(&light, shape.area())?,
             None => None,
         };
-        let Some(material) = self.cover_of(emission.is_some()) else { return Ok(()) };
+        let filling = self.filling();
+        let Some(material) = self.cover_of(emission.is_some(), filling.is_some()) else { return Ok(()) };
         let material = if alpha == Scalar::Constant(1.0) { material } else { self.masked(material, alpha) };
+        let material = filling.map_or(material, |interior| self.filled(material, interior));
         if self.object.is_some() && emission.is_some() {
             let message = "lights in objects do not shine, as in pbrt";
             self.warn_once("pbrt::light-in-object", "", || {
@@ -139,6 +141,11 @@ impl Importer<'_> {
         }
         self.add_covered(shape, material, emission);
         Ok(())
+    }
+
+    fn nothing(&mut self) -> MaterialId {
+        let Self { nothing, target, .. } = self;
+        *nothing.get_or_insert_with(|| target.builder().material(NullMaterial))
     }
 
     /// Adds a shape to the world or to the object that is being defined.
@@ -167,11 +174,12 @@ impl Importer<'_> {
         (self.state.moves() && Motion::new(&from, &to).is_some()).then_some([from, to])
     }
 
-    /// `None` for what is a boundary between media only.
-    fn cover_of(&mut self, emits: bool) -> Option<MaterialId> {
+    /// `None` for what is a boundary between media only, none of which takes light.
+    fn cover_of(&mut self, emits: bool, is_filled: bool) -> Option<MaterialId> {
         match self.state.cover {
             Some(Cover::Material(material)) => Some(material),
             Some(Cover::Nothing) if emits => Some(self.target.builder().material(BlackMaterial)),
+            Some(Cover::Nothing) if is_filled => Some(self.nothing()),
             Some(Cover::Nothing) => None,
             None => Some(self.default_material()),
         }

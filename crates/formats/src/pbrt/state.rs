@@ -1,5 +1,6 @@
 //! What `AttributeBegin` saves and `AttributeEnd` brings back.
 
+use super::media::Interface;
 use super::params::{Param, Params};
 use glam::{DAffine3, DMat3, DMat4, DVec3};
 use std::collections::HashMap;
@@ -23,6 +24,8 @@ pub(super) struct Attributes {
     pub(super) active: [bool; 2],
     /// `None` is the default material.
     pub(super) cover: Option<Cover>,
+    /// What lies inside of shapes and around them.
+    pub(super) interface: Interface,
     pub(super) area_light: Option<Rc<Params>>,
     pub(super) reverse: bool,
     /// Parameters that `Attribute` gives to all directives of a kind.
@@ -35,6 +38,7 @@ impl Default for Attributes {
             ctm: [DAffine3::IDENTITY; 2],
             active: [true; 2],
             cover: None,
+            interface: [None, None],
             area_light: None,
             reverse: false,
             defaults: Rc::default(),

@@ -1,6 +1,7 @@
 //! Whole scenes, written to a folder of their own.
 
 mod looks;
+mod media;
 
 use crate::load::{LoadOptions, Loaded, load};
 use crate::{Diagnostic, Error};

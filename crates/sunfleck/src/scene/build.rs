@@ -135,6 +135,13 @@ impl SceneBuilder {
         self.fillings.resize(self.fillings.len().max(at + 1), None);
         self.fillings[at] = Some(interior);
     }
+    /// Adds a material like `id`, with `interior` behind it. A handle that names nothing stays one.
+    pub fn filled(&mut self, id: MaterialId, interior: InteriorId) -> MaterialId {
+        let Some(same) = self.materials.get(id.0 as usize).cloned() else { return id };
+        let filled = self.material(same);
+        self.fill(filled, interior);
+        filled
+    }
     /// Adds a surface in world space.
     pub fn surface(&mut self, s: SurfaceDef) {
         self.surfaces.push(s);

@@ -7,7 +7,8 @@ use sunfleck::{
         BlackMaterial, ConductorMaterial, CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, Material,
         MirrorMaterial, NullMaterial, RoughConductorMaterial, RoughDielectricMaterial, ThinDielectricMaterial,
     },
-    scene::SceneBuilder,
+    medium::Interior,
+    scene::{MaterialId, SceneBuilder},
     spectrum::{Ior, NAMED, Named, named},
 };
 
@@ -34,6 +35,21 @@ pub(super) fn make(spec: &Spec, b: &mut SceneBuilder) -> Result<Material, Failur
         "null" => NullMaterial.into(),
         other => return Err(spec.unknown("material", other, KINDS)),
     })
+}
+
+/// What lies behind glass: `absorb` per scene unit, `priority` where it overlaps others.
+pub(super) fn interior(spec: &Spec, b: &SceneBuilder, id: MaterialId) -> Result<Option<Interior>, Failure> {
+    let ior = match b.parts().materials.get(id.0 as usize) {
+        Some(Material::Dielectric(m)) => m.eta,
+        Some(Material::RoughDielectric(m)) => m.glass.eta,
+        _ => return Ok(None),
+    };
+    let absorb = spec.colour("absorb", Vec3::ZERO)?;
+    let range = 0.0..=f32::from(u16::MAX);
+    let priority =
+        spec.number("priority", 0.0, |v| range.contains(&v) && v.fract() == 0.0, "a whole number to 65535")?;
+    let is_empty = absorb == Vec3::ZERO && priority == 0.0;
+    Ok((!is_empty).then(|| Interior::absorbing(absorb, ior).with_priority(priority as u16)))
 }
 
 fn roughness(spec: &Spec, default: f32) -> Result<f32, Failure> {

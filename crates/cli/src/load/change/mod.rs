@@ -22,6 +22,10 @@ pub(super) fn apply(read: &mut Loaded, materials: &[(String, String)], lights: &
         for id in ids {
             let model = material::make(&spec, &mut read.builder)?;
             read.builder.replace_material(id, model);
+            if let Some(interior) = material::interior(&spec, &read.builder, id)? {
+                let interior = read.builder.interior(interior);
+                read.builder.fill(id, interior);
+            }
         }
         spec.tell_unknown()?;
     }

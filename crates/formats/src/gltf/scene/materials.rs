@@ -10,6 +10,7 @@ use serde_json::Value;
 use std::collections::HashMap;
 use sunfleck::bsdf::{MaskMaterial, NormalMapMaterial, PrincipledMaterial};
 use sunfleck::light::Sides;
+use sunfleck::medium::Interior;
 use sunfleck::scene::{MaterialId, SurfaceDef, TextureId, Transmission};
 use sunfleck::spectrum::Ior;
 use sunfleck::texture::{Channel, Product, Scalar, Texture, Threshold, VertexColour};
@@ -58,6 +59,7 @@ impl Importer<'_> {
         let bare = self.model(json, base.colour, &name);
         let id = self.relief(json, bare);
         let id = self.holes(json, &base, id);
+        self.fill(json, id);
         if let Some(name) = json.text("name") {
             self.target.name_material(name, id);
         }
@@ -128,22 +130,33 @@ impl Importer<'_> {
             return self.target.builder().material(model);
         }
         let opaque = self.principled(json, colour, name);
-        let clear = self.transmission(json, colour, name);
+        let clear = self.transmission(json, colour);
         let model = self.target.builder().principled(opaque, clear);
         self.turned(json, model)
     }
 
     /// What lets light through: with a thickness the boundary of a body, without one a sheet.
-    fn transmission(&mut self, json: &Value, color: TextureId, name: &str) -> Option<Transmission> {
+    fn transmission(&mut self, json: &Value, color: TextureId) -> Option<Transmission> {
         let clear = json.extension("KHR_materials_transmission")?;
         let factor = clear.number("transmissionFactor", 0.0).clamp(0.0, 1.0);
         let amount = self.channel(clear.field("transmissionTexture"), 0, factor);
-        let volume = json.extension("KHR_materials_volume");
-        let thin = volume.is_none_or(|v| v.number("thicknessFactor", 0.0) <= 0.0);
-        if volume.is_some_and(|v| v.get("attenuationDistance").is_some()) && !thin {
-            self.note("gltf::absorption", name, "what it absorbs inside is left out");
+        Some(Transmission { amount, color, ior: dispersive(ior(json), json), thin: volume(json).is_none() })
+    }
+
+    /// What a body absorbs: `attenuationColor` is left of white after `attenuationDistance`, which is infinite by default.
+    fn fill(&mut self, json: &Value, id: MaterialId) {
+        let clear = json.extension("KHR_materials_transmission");
+        let Some(volume) = volume(json).filter(|_| clear.is_some_and(|c| c.number("transmissionFactor", 0.0) > 0.0))
+        else {
+            return;
+        };
+        let distance = volume.number("attenuationDistance", 0.0);
+        let color = Vec3::from_array(volume.numbers("attenuationColor", [1.0; 3])).clamp(Vec3::ZERO, Vec3::ONE);
+        if distance > 0.0 && color != Vec3::ONE {
+            let interior = Interior::passing(color, distance, dispersive(ior(json), json));
+            let interior = self.target.builder().interior(interior);
+            self.target.builder().fill(id, interior);
         }
-        Some(Transmission { amount, color, ior: dispersive(ior(json), json), thin })
     }
 
     fn relief(&mut self, json: &Value, of: MaterialId) -> MaterialId {
@@ -179,6 +192,11 @@ impl Importer<'_> {
         }
         self.target.builder().material(MaskMaterial { of, opacity })
     }
+}
+
+/// `KHR_materials_volume` of a body; a thickness of 0 is a sheet.
+fn volume(json: &Value) -> Option<&Value> {
+    json.extension("KHR_materials_volume").filter(|v| v.number("thicknessFactor", 0.0) > 0.0)
 }
 
 /// The index of refraction; 0 stands for no refraction at all, which is what a very high one reflects.

@@ -181,3 +181,25 @@ fn textures_are_turned_as_the_extension_says() {
     let turned = json!({ "offset": [0, 1], "rotation": std::f32::consts::FRAC_PI_2 });
     assert_eq!((seen(turned.clone(), 0.5, 0.9), seen(turned, 0.5, 0.1)), ('r', 'g'));
 }
+
+#[test]
+fn a_body_absorbs_what_its_volume_says_and_a_sheet_nothing() {
+    let sigma = |extensions: Value| {
+        let mut file = triangle(&json!([{ "mesh": 0 }]));
+        file["materials"] = json!([{ "extensions": extensions }]);
+        file["meshes"][0]["primitives"][0]["material"] = json!(0);
+        let scene = scene(&file);
+        let lanes = Wavelengths::Rgb;
+        scene.interiors().iter().map(|i| i.sigma_a(lanes).to_rgb(lanes)).collect::<Vec<_>>()
+    };
+    let clear = json!({ "transmissionFactor": 1 });
+    let volume = |thickness: f32| json!({ "thicknessFactor": thickness, "attenuationColor": [0.5, 0.25, 1], "attenuationDistance": 0.5 });
+    let body = sigma(json!({ "KHR_materials_transmission": clear, "KHR_materials_volume": volume(1.0) }));
+    // What is left after 0.5 is halved twice as often after 1.
+    let want = Vec3::new(4.0f32.ln(), 16.0f32.ln(), 0.0);
+    assert!(body.len() == 1 && body[0].distance(want) < 1e-4, "{body:?}");
+    assert!(sigma(json!({ "KHR_materials_transmission": clear, "KHR_materials_volume": volume(0.0) })).is_empty());
+    assert!(sigma(json!({ "KHR_materials_volume": volume(1.0) })).is_empty());
+    let endless = json!({ "thicknessFactor": 1, "attenuationColor": [0.5, 0.25, 1] });
+    assert!(sigma(json!({ "KHR_materials_transmission": clear, "KHR_materials_volume": endless })).is_empty());
+}

@@ -9,6 +9,7 @@
 mod files;
 mod lights;
 mod materials;
+mod media;
 mod mitsubas;
 mod picture;
 mod ply;
@@ -109,6 +110,7 @@ impl<'s> Writer<'s> {
         self.line("\nWorldBegin\n");
         self.lights()?;
         self.materials()?;
+        self.media();
         self.shapes()
     }
 

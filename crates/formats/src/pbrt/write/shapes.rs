@@ -70,6 +70,7 @@ impl Writer<'_> {
             self.line(&format!("AttributeBegin\n  AreaLightSource \"diffuse\"{}{two}", light("L", radiance)));
         }
         if *last != Some(s.material) {
+            self.interface(s.material);
             self.line(&format!("NamedMaterial {material}"));
             *last = s.emission.is_none().then_some(s.material);
         }

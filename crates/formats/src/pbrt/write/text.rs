@@ -71,6 +71,16 @@ pub(super) fn index(name: &str, eta: &Ior) -> String {
     }
 }
 
+/// An index of refraction, without names.
+pub(super) fn plain_index(name: &str, eta: &Ior) -> String {
+    if let Ior::Constant(eta) = eta { float(name, *eta) } else { curve(name, &Curve::new(|nm| eta.at_nm(nm))) }
+}
+
+/// A curve over wavelength.
+pub(super) fn curve(name: &str, c: &Curve) -> String {
+    param("spectrum", name, &pairs(c))
+}
+
 /// Pairs of wavelength and value: those that a straight line between others does not tell.
 fn pairs(curve: &Curve) -> String {
     let all: Vec<(f32, f32)> = NM.map(|nm| (nm as f32, curve.at(nm as f32))).collect();
