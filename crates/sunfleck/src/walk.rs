@@ -146,9 +146,9 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
     loop {
         let mut hit = world.intersect(&ray);
         if world.is_filled() {
-            hit = world.within(hit, &mut inside);
+            world.within(&mut hit, &mut inside);
         }
-        let Some(at) = hit else {
+        let Some(at) = &hit else {
             visitor.escape(&Escape { ray: &ray, beta, scatterings, pdf, delta, dispersed });
             break;
         };
@@ -157,18 +157,8 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         if world.is_filled() {
             beta *= world.transmittance(at.near, at.distance);
         }
-        let arrival = Arrival {
-            at: &at,
-            beta,
-            departed,
-            scatterings,
-            pdf,
-            delta,
-            all_delta,
-            dispersed,
-            travelled,
-            inside: &inside,
-        };
+        let arrival =
+            Arrival { at, beta, departed, scatterings, pdf, delta, all_delta, dispersed, travelled, inside: &inside };
         let step = visitor.surface(&arrival, sampler);
         if step == Step::Stop || scatterings >= limits.scatterings {
             break;
@@ -199,11 +189,11 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         } else {
             beta = next;
         }
-        visitor.scatter(&at, &s);
+        visitor.scatter(at, &s);
         (pdf, delta) = (s.pdf, s.delta);
         all_delta &= s.delta;
         if s.crosses && world.is_filled() {
-            world.cross(&at, &mut inside);
+            world.cross(at, &mut inside);
         }
         ray = at.spawn(s.wi);
         scatterings += 1;

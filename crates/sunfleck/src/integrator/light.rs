@@ -71,8 +71,10 @@ fn lights_seen_directly(world: &World, pass: &Pass, image: &mut PassImage) {
         let eye = EyeRay::new(world, spec, pass, pass.index, (x, y));
         let ray = eye.camera.ray;
         counts.rays += 1;
-        let le = match world.within(world.intersect(&ray), &mut world.camera_inside()) {
-            Some(at) => world.emitted(&at) * world.transmittance(at.near, at.distance),
+        let mut hit = world.intersect(&ray);
+        world.within(&mut hit, &mut world.camera_inside());
+        let le = match &hit {
+            Some(at) => world.emitted(at) * world.transmittance(at.near, at.distance),
             None => world.escaped(ray.o, ray.d).fold(Spectrum::BLACK, |sum, sky| sum + sky.le),
         };
         le.to_rgb(pass.lambda) * eye.weight

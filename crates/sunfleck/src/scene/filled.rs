@@ -97,22 +97,22 @@ impl World<'_> {
         self.filled.media[usize::from(id.0)].priority
     }
 
-    /// The first surface that a path in `inside` meets along `ray`, which is known to meet `hit`: past those that are hidden,
-    /// with the media on both sides.
+    /// Goes on from `hit` to the first surface that a path in `inside` meets, past those that are hidden, and tells it the media on
+    /// both sides. In place: a copy of a hit is dear.
     #[inline(never)]
-    pub(crate) fn within(&self, hit: Option<Interaction>, inside: &mut Inside) -> Option<Interaction> {
-        let mut at = hit?;
+    pub(crate) fn within(&self, hit: &mut Option<Interaction>, inside: &mut Inside) {
         let mut before = 0.0;
-        loop {
+        while let Some(at) = hit {
             let near = inside.medium();
             (at.near, at.far) = (near, near);
             at.distance += before;
-            let Some((id, entering)) = self.boundary(&at) else { return Some(at) };
+            let Some((id, entering)) = self.boundary(at) else { return };
             let priority = self.priority(id);
             if near.hides(id, priority, entering) {
-                self.cross(&at, inside);
+                self.cross(at, inside);
                 before = at.distance;
-                at = self.intersect(&at.spawn(-at.wo))?;
+                let on = at.spawn(-at.wo);
+                *hit = self.intersect(&on);
                 continue;
             }
             let past = inside.past(id, priority, entering);
@@ -121,7 +121,7 @@ impl World<'_> {
             if let Some(other) = other.interior().filter(|_| priority > 0) {
                 at.bsdf = at.bsdf.immersed(self.filled.media[usize::from(other.0)].ior);
             }
-            return Some(at);
+            return;
         }
     }
     /// The interior behind the surface at `at`, and whether a path that goes on through it enters it.
