@@ -67,6 +67,11 @@ fn finish(job: &Job, outputs: &Outputs, done: Done, interrupt: &Interrupt) -> Re
     let told = if wants_json { console::print_json(&Record::new(job, &done, &written, explanation)) } else { Ok(()) };
     if !output.quiet {
         console::say(summary::after(&done, &written));
+        if job.loaded.scene.was_crowded() {
+            console::say(
+                "warning: somewhere more media lie in each other than can be kept apart (8): some were ignored",
+            );
+        }
         match explanation {
             Some(e) => console::say(e.text().trim_end()),
             None if output.explain => console::say("interrupted: the picture is not explained"),
