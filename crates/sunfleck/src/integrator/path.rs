@@ -39,20 +39,23 @@ struct Prepared<'s> {
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
         let world = self.scene.world(pass.lambda, pass.time);
-        let spec = image.spec();
-        image.fill(|x, y, counts| {
-            let mut eye = EyeRay::new(&world, spec, pass, pass.index, (x, y));
-            self.radiance(&world, &eye.start(&world), &mut eye.sampler, counts).to_rgb(pass.lambda) * eye.weight
-        });
+        trace(&world, self.limits, pass, image);
     }
 }
 
-impl Prepared<'_> {
-    fn radiance(&self, world: &World, start: &Start, sampler: &mut Sampler, counts: &mut Counts) -> Spectrum {
-        let mut v = Collect { world, limits: self.limits, sum: Spectrum::BLACK, from: start.ray.o, rays: 0 };
-        counts.rays += walk(world, start, &self.limits, sampler, &mut v) + v.rays;
-        v.sum
-    }
+/// Adds a pass of path tracing to the black `image`.
+pub(super) fn trace(world: &World, limits: Limits, pass: &Pass, image: &mut PassImage) {
+    let spec = image.spec();
+    image.fill(|x, y, counts| {
+        let mut eye = EyeRay::new(world, spec, pass, pass.index, (x, y));
+        radiance(world, limits, &eye.start(world), &mut eye.sampler, counts).to_rgb(pass.lambda) * eye.weight
+    });
+}
+
+fn radiance(world: &World, limits: Limits, start: &Start, sampler: &mut Sampler, counts: &mut Counts) -> Spectrum {
+    let mut v = Collect { world, limits, sum: Spectrum::BLACK, from: start.ray.o, rays: 0 };
+    counts.rays += walk(world, start, &limits, sampler, &mut v) + v.rays;
+    v.sum
 }
 
 /// Adds up what a camera walk finds.

@@ -187,8 +187,10 @@ impl Integrator for Engine {
             same_place: std::f32::consts::PI * degree * degree,
             plan: None,
             chains: None,
+            by_path_tracer: false,
         };
         if self.planned && scene.is_matt() && Plan::needs_no_photons(&mut prepared, spec, seed) {
+            prepared.by_path_tracer = self.heuristic == Heuristic::default();
             return Box::new(prepared);
         }
         prepared.source = self.source(scene, spec, seed);
@@ -253,10 +255,17 @@ struct Prepared<'s> {
     plan: Option<Plan>,
     /// Each of `paths` begins a chain.
     chains: Option<Chains>,
+    /// Pictures are left to `path`, which sums up the same samplers without what others need. Each sampler alone is still shown
+    /// from here, by weights of its own.
+    by_path_tracer: bool,
 }
 
 impl PassRenderer for Prepared<'_> {
     fn render_pass(&self, pass: &Pass, image: &mut PassImage) {
+        if self.by_path_tracer {
+            let world = self.scene.world(pass.lambda, pass.time);
+            return super::path::trace(&world, self.engine.limits, pass, image);
+        }
         self.render_parts(pass, None, image);
     }
     fn techniques(&self) -> Vec<Technique> {
