@@ -112,7 +112,7 @@ fn seen(world: &World) -> Vec<Interaction> {
     let raster = |x, y| (Vec2::new(x as f32, y as f32) + 0.5) / SIDE as f32;
     let rays = (0..SIDE).flat_map(|y| (0..SIDE).map(move |x| raster(x, y)));
     let hits = rays.filter_map(|r| world.intersect(&world.camera().ray(r, Vec2::splat(0.5)).ray));
-    hits.filter(|at| at.gathers).collect()
+    hits.filter(Interaction::is_connectible).collect()
 }
 
 fn map(c: &mut Criterion) {

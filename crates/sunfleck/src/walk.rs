@@ -2,7 +2,7 @@
 //!
 //! It traces, scatters and plays Russian roulette; what to do at the places it visits is the [`Visit`]or's business.
 use crate::{
-    bsdf::Transport,
+    bsdf::{Lobes, Transport},
     math::Ray,
     medium::Inside,
     sampler::Sampler,
@@ -18,16 +18,19 @@ pub struct Limits {
     pub scatterings: u32,
     /// Scatterings before Russian roulette may end a camera walk. Light walks play from the first.
     pub roulette_after: u32,
+    /// Photons are left and gathered where lobes are at least so wide: narrow ones may be left to the walks, as delta lobes are.
+    pub gathers: Lobes,
 }
 
 impl Default for Limits {
     /// 64 scatterings, roulette after the third: bright, clear glass needs more than a handful.
     fn default() -> Self {
-        Self { scatterings: 64, roulette_after: 3 }
+        Self { scatterings: 64, roulette_after: 3, gathers: Lobes::Narrow }
     }
 }
 
 /// A walker reaching a surface, about to scatter.
+#[expect(clippy::struct_excessive_bools, reason = "facts about the way that do not exclude each other")]
 #[derive(Clone, Copy, Debug)]
 pub struct Arrival<'a> {
     /// Where.
@@ -42,6 +45,8 @@ pub struct Arrival<'a> {
     pub pdf: f32,
     /// The direction that led here came from a delta lobe (or, for the first segment, from what started the walk).
     pub delta: bool,
+    /// It was scattered, and last by a delta lobe, or by a surface that gathers nothing: see [`Limits::gathers`].
+    pub caustic: bool,
     /// Every scattering so far was from a delta lobe.
     pub all_delta: bool,
     /// Some boundary parted the wavelengths, and `beta` is that of the hero alone: see [`crate::spectrum`].
@@ -65,6 +70,8 @@ pub struct Escape<'a> {
     pub pdf: f32,
     /// Its direction came from a delta lobe (or from what started the walk).
     pub delta: bool,
+    /// As [`Arrival::caustic`].
+    pub caustic: bool,
     /// Some boundary parted the wavelengths, and `beta` is that of the hero alone.
     pub dispersed: bool,
 }
@@ -140,7 +147,7 @@ impl Arrival<'_> {
 /// Returns the number of rays traced.
 pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler, visitor: &mut impl Visit) -> u64 {
     let Start { mut ray, mut beta, mode, mut dispersed, mut inside } = *start;
-    let (mut pdf, mut delta, mut all_delta) = (1.0, true, true);
+    let (mut pdf, mut delta, mut caustic, mut all_delta) = (1.0, true, false, true);
     let (mut eta_scale, mut travelled) = (1.0f32, 0.0);
     let mut scatterings = 0;
     loop {
@@ -149,7 +156,7 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
             world.within(&mut hit, &mut inside);
         }
         let Some(at) = &hit else {
-            visitor.escape(&Escape { ray: &ray, beta, scatterings, pdf, delta, dispersed });
+            visitor.escape(&Escape { ray: &ray, beta, scatterings, pdf, delta, caustic, dispersed });
             break;
         };
         travelled += at.distance;
@@ -157,8 +164,19 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         if world.is_filled() {
             beta *= world.transmittance(at.near, at.distance);
         }
-        let arrival =
-            Arrival { at, beta, departed, scatterings, pdf, delta, all_delta, dispersed, travelled, inside: &inside };
+        let arrival = Arrival {
+            at,
+            beta,
+            departed,
+            scatterings,
+            pdf,
+            delta,
+            caustic,
+            all_delta,
+            dispersed,
+            travelled,
+            inside: &inside,
+        };
         let step = visitor.surface(&arrival, sampler);
         if step == Step::Stop || scatterings >= limits.scatterings {
             break;
@@ -191,6 +209,7 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         }
         visitor.scatter(at, &s);
         (pdf, delta) = (s.pdf, s.delta);
+        caustic = s.delta || !at.gathers(limits.gathers);
         all_delta &= s.delta;
         if s.crosses && world.is_filled() {
             world.cross(at, &mut inside);

@@ -2,7 +2,7 @@
 use glam::{Affine3A, Vec2, Vec3, Vec4};
 use sunfleck::{
     bsdf::{
-        Bsdf, BumpMapMaterial, COVERINGS, DiffuseMaterial, MaskMaterial, Material, MirrorMaterial, MixMaterial,
+        Bsdf, BumpMapMaterial, COVERINGS, DiffuseMaterial, Lobes, MaskMaterial, Material, MirrorMaterial, MixMaterial,
         NormalMapMaterial, NullMaterial, Scalar, TurnedMaterial, TwoSidedMaterial,
     },
     camera::{Perspective, View},
@@ -141,7 +141,7 @@ fn a_mix_shows_each_material_in_its_share_and_keeps_photons_wherever_one_of_them
     let mirrors = share(&met, |at| matches!(at.bsdf, Bsdf::Mirror(_)));
     let matts = share(&met, |at| matches!(at.bsdf, Bsdf::Diffuse(_)));
     assert!(is_near(mirrors, 0.25) && is_near(matts, 0.375), "{mirrors} {matts}");
-    assert!(met.iter().flatten().all(|at| at.gathers));
+    assert!(met.iter().flatten().all(|at| at.widest > Lobes::Delta));
 }
 
 #[test]
@@ -152,12 +152,12 @@ fn each_side_has_its_own_material_or_is_black() {
     let grey = matt(&mut b, 0.5);
     under(&mut b, square(), TwoSidedMaterial { front: Some(grey), back: Some(mirror) });
     let scene = build(b);
-    assert_eq!(share(&met(&scene, 1.0), |at| matches!(at.bsdf, Bsdf::Diffuse(_)) && at.gathers), 1.0);
-    assert_eq!(share(&met(&scene, -1.0), |at| matches!(at.bsdf, Bsdf::Mirror(_)) && !at.gathers), 1.0);
+    assert_eq!(share(&met(&scene, 1.0), |at| matches!(at.bsdf, Bsdf::Diffuse(_)) && at.widest > Lobes::Delta), 1.0);
+    assert_eq!(share(&met(&scene, -1.0), |at| matches!(at.bsdf, Bsdf::Mirror(_)) && at.widest == Lobes::Delta), 1.0);
     let mut b = SceneBuilder::new();
     let grey = matt(&mut b, 0.5);
     under(&mut b, square(), TwoSidedMaterial { front: Some(grey), back: None });
-    assert_eq!(share(&met(&build(b), -1.0), |at| matches!(at.bsdf, Bsdf::Black(_)) && !at.gathers), 1.0);
+    assert_eq!(share(&met(&build(b), -1.0), |at| matches!(at.bsdf, Bsdf::Black(_)) && at.widest == Lobes::Delta), 1.0);
 }
 
 /// The shading normal where a ray from above meets `shape` under a material laid over grey.

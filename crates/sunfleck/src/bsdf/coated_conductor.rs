@@ -1,6 +1,6 @@
 //! Metal under lacquer.
 use super::{
-    BsdfSample, Conductor, ConductorMaterial, Lookup, Model, Principled, Roughness, Scalar, Scatter, TextureId,
+    BsdfSample, Conductor, ConductorMaterial, Lobes, Lookup, Model, Principled, Roughness, Scalar, Scatter, TextureId,
     Transport, ggx::Ggx, packed::Unit, principled::f0_of,
 };
 use crate::{math::Local, spectrum::Spectrum};
@@ -61,7 +61,7 @@ impl Scatter for CoatedConductor {
     fn sample(&self, wo: Local, u_lobe: f32, u: Vec2, mode: Transport) -> Option<BsdfSample> {
         self.0.sample(wo, u_lobe, u, mode)
     }
-    fn is_connectible(&self) -> bool {
-        true
+    fn lobes(&self) -> Lobes {
+        self.0.lobes()
     }
 }

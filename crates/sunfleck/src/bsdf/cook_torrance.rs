@@ -1,6 +1,6 @@
 //! Painted, plastic and metallic surfaces by base colour, roughness and metalness.
 use super::{
-    BsdfSample, Lookup, Model, Scatter, TextureId, Transport,
+    BsdfSample, Lobes, Lookup, Model, Scatter, TextureId, Transport,
     fresnel::schlick,
     ggx::{Ggx, reflect_up},
     seen_from,
@@ -104,7 +104,7 @@ impl Scatter for CookTorrance {
         BsdfSample::scattered(wi, self.eval(wo, wi, mode) * (wi.abs_cos_theta() / pdf), pdf)
     }
     #[inline]
-    fn is_connectible(&self) -> bool {
-        true
+    fn lobes(&self) -> Lobes {
+        Lobes::Wide
     }
 }

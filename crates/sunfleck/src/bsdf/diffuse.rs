@@ -1,5 +1,5 @@
 //! Lambert's cosine law, on both sides of the surface.
-use super::{BsdfSample, Lookup, Model, Scatter, TextureId, Transport};
+use super::{BsdfSample, Lobes, Lookup, Model, Scatter, TextureId, Transport};
 use crate::{
     math::{
         Local,
@@ -60,7 +60,7 @@ impl Scatter for Diffuse {
         Some(BsdfSample { wi, weight: self.reflectance, pdf, delta: false, eta: 1.0, disperses: false })
     }
     #[inline]
-    fn is_connectible(&self) -> bool {
-        !self.reflectance.is_black()
+    fn lobes(&self) -> Lobes {
+        Lobes::wide_if(!self.reflectance.is_black())
     }
 }

@@ -1,5 +1,5 @@
 //! Paper, leaves and lampshades: matt on both sides, and light comes through.
-use super::{BsdfSample, Lookup, Model, Scatter, TextureId, Transport};
+use super::{BsdfSample, Lobes, Lookup, Model, Scatter, TextureId, Transport};
 use crate::{
     math::{
         Local,
@@ -81,7 +81,7 @@ impl Scatter for DiffuseTransmission {
         BsdfSample::scattered(wi, self.eval(wo, wi, mode) * (wi.abs_cos_theta() / pdf), pdf)
     }
     #[inline]
-    fn is_connectible(&self) -> bool {
-        self.prob_reflect().is_some()
+    fn lobes(&self) -> Lobes {
+        Lobes::wide_if(self.prob_reflect().is_some())
     }
 }

@@ -1,7 +1,7 @@
 //! Disney's material of 2012 and 2015 as Mitsuba has it: simple lobes that are added up, without care for what layers take from
 //! each other.
 use super::{
-    BsdfSample, Landscape, Lookup, Model, Scalar, Scatter, TextureId, Transport,
+    BsdfSample, Landscape, Lobes, Lookup, Model, Scalar, Scatter, TextureId, Transport,
     burley::{self, Coat, schlick, tinted},
     fresnel,
     ggx::reflect_up,
@@ -251,7 +251,9 @@ impl Scatter for Disney {
         let s = BsdfSample::scattered(seen_from(wo, wi), weight, pdf)?;
         Some(BsdfSample { eta: if passes { v.eta } else { 1.0 }, ..s })
     }
-    fn is_connectible(&self) -> bool {
-        true
+    fn lobes(&self) -> Lobes {
+        let matt = (1.0 - self.metallic.get()) * (1.0 - self.transmission.map_or(0.0, Unit::get));
+        // Coats are narrow.
+        if matt <= 0.0 && self.sheen.get() <= 0.0 { self.facets.lobes() } else { Lobes::Wide }
     }
 }

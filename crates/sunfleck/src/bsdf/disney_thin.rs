@@ -1,6 +1,6 @@
 //! Disney's thin material of 2015 as Mitsuba has it: a sheet that reflects and lets pass, glossy or matt.
 use super::{
-    BsdfSample, Landscape, Lookup, Model, Scalar, Scatter, TextureId, Transport,
+    BsdfSample, Landscape, Lobes, Lookup, Model, Scalar, Scatter, TextureId, Transport,
     burley::{self, schlick, tinted},
     fresnel,
     ggx::reflect_up,
@@ -162,7 +162,7 @@ impl Scatter for DisneyThin {
         let pdf = self.density(up, wi);
         BsdfSample::scattered(seen_from(wo, wi), self.f(up, wi) * (wi.abs_cos_theta() / pdf), pdf)
     }
-    fn is_connectible(&self) -> bool {
-        true
+    fn lobes(&self) -> Lobes {
+        Lobes::Wide
     }
 }

@@ -1,5 +1,6 @@
 //! Which landscape of tiny mirrors a rough surface is: how its slopes are spread, and how its hills hide one another.
 use super::{
+    Lobes,
     beckmann::Beckmann,
     fresnel,
     ggx::{Ggx, Glint},
@@ -47,6 +48,11 @@ impl Landscape {
     #[inline]
     pub fn alpha(self) -> Vec2 {
         self.ggx.alpha()
+    }
+    /// How far it spreads light that one facet sends on.
+    #[inline]
+    pub(super) fn lobes(self) -> Lobes {
+        Lobes::of_facets(self.alpha().max_element())
     }
     /// Its kind.
     #[inline]

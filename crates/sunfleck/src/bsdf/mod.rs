@@ -128,10 +128,42 @@ pub trait Scatter {
     }
     /// Draws `wi`; `None` when the sample carries nothing. `u_lobe` picks the lobe.
     fn sample(&self, wo: Local, u_lobe: f32, u: Vec2, mode: Transport) -> Option<BsdfSample>;
+    /// The widest of the lobes, seen from any direction.
+    #[inline]
+    fn lobes(&self) -> Lobes {
+        Lobes::Delta
+    }
     /// True if some lobe has a density, so that photons may be stored and lights connected here.
     #[inline]
     fn is_connectible(&self) -> bool {
-        false
+        self.lobes() > Lobes::Delta
+    }
+}
+
+/// How far the lobes of a closure spread.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Lobes {
+    /// Into single directions, or nowhere.
+    Delta,
+    /// Around single directions, as on glass or metal with a haze: of many photons there, few are scattered to any one eye.
+    Narrow,
+    /// Over a good part of the hemisphere.
+    Wide,
+}
+
+impl Lobes {
+    /// Facets of at most this roughness make narrow lobes. At 0.1, light within 11° of the mirror direction is half of all.
+    const NARROW: f32 = 0.1;
+
+    /// Of one that is wide, or black.
+    #[inline]
+    fn wide_if(scatters: bool) -> Self {
+        if scatters { Self::Wide } else { Self::Delta }
+    }
+    /// Of facets of this roughness, the larger if there are two.
+    #[inline]
+    fn of_facets(alpha: f32) -> Self {
+        if alpha <= Self::NARROW { Self::Narrow } else { Self::Wide }
     }
 }
 
@@ -234,8 +266,8 @@ macro_rules! models {
                 match self { $(Self::$closure(b) => b.sample(wo, u_lobe, u, mode)),* }
             }
             #[inline]
-            fn is_connectible(&self) -> bool {
-                match self { $(Self::$closure(b) => b.is_connectible()),* }
+            fn lobes(&self) -> Lobes {
+                match self { $(Self::$closure(b) => b.lobes()),* }
             }
         }
     };

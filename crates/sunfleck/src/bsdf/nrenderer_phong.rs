@@ -1,5 +1,5 @@
 //! The Phong formula of the `NRenderer` framework, kept as it is so that its pictures can be reproduced.
-use super::{BsdfSample, Lookup, Model, Scatter, TextureId, Transport, cosine_lobe::CosineLobe};
+use super::{BsdfSample, Lobes, Lookup, Model, Scatter, TextureId, Transport, cosine_lobe::CosineLobe};
 use crate::{
     math::{
         Local,
@@ -103,7 +103,7 @@ impl Scatter for NRendererPhong {
         BsdfSample::scattered(wi, self.eval(wo, wi, mode) * (wi.abs_cos_theta() / pdf), pdf)
     }
     #[inline]
-    fn is_connectible(&self) -> bool {
-        self.prob_diffuse().is_some()
+    fn lobes(&self) -> Lobes {
+        Lobes::wide_if(self.prob_diffuse().is_some())
     }
 }

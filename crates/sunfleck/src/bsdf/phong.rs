@@ -1,5 +1,5 @@
 //! Phong's highlight on a matt base, made physical.
-use super::{BsdfSample, Lookup, Model, Scatter, TextureId, Transport, cosine_lobe::CosineLobe};
+use super::{BsdfSample, Lobes, Lookup, Model, Scatter, TextureId, Transport, cosine_lobe::CosineLobe};
 use crate::{
     math::{
         Local,
@@ -86,7 +86,7 @@ impl Scatter for Phong {
         BsdfSample::scattered(wi, self.eval(wo, wi, mode) * (wi.abs_cos_theta() / pdf), pdf)
     }
     #[inline]
-    fn is_connectible(&self) -> bool {
-        self.prob_diffuse().is_some()
+    fn lobes(&self) -> Lobes {
+        Lobes::wide_if(self.prob_diffuse().is_some())
     }
 }

@@ -1,6 +1,6 @@
 //! Plastic, lacquer and wet paint: a matt base under a clear boundary.
 use super::{
-    Bsdf, BsdfSample, Lookup, Model, Principled, Roughness, Scatter, TextureId, Transport,
+    Bsdf, BsdfSample, Lobes, Lookup, Model, Principled, Roughness, Scatter, TextureId, Transport,
     albedo::Albedo,
     fresnel,
     packed::{Unit, UnitSpectrum},
@@ -140,7 +140,7 @@ impl Scatter for Plastic {
         BsdfSample::scattered(wi, self.eval(wo, wi, mode) * (wi.abs_cos_theta() / pdf), pdf)
     }
     #[inline]
-    fn is_connectible(&self) -> bool {
-        !self.base.is_black()
+    fn lobes(&self) -> Lobes {
+        Lobes::wide_if(!self.base.is_black())
     }
 }

@@ -1,6 +1,6 @@
 //! Paint, plastic, metal and cloth under a clear coat: one model for what glTF, Mitsuba and Blender call principled.
 use super::{
-    BsdfSample, Lookup, Model, Roughness, Scalar, Scatter, TextureId, Transport,
+    BsdfSample, Lobes, Lookup, Model, Roughness, Scalar, Scatter, TextureId, Transport,
     albedo::{Albedo, TabulatedSheen},
     film::{Film, FilmMaterial},
     fresnel::schlick,
@@ -308,7 +308,9 @@ impl Scatter for Principled {
         let pdf = self.density(&v, wi);
         BsdfSample::scattered(seen_from(wo, wi), self.f(&v, wi) * (wi.cos_theta() / pdf), pdf)
     }
-    fn is_connectible(&self) -> bool {
-        true
+    fn lobes(&self) -> Lobes {
+        // All others have a matt part.
+        let bare = self.metallic.get() >= 1.0 && self.sheen.get().is_black();
+        if bare { Lobes::of_facets(self.ggx.alpha().max_element().max(self.coat_alpha.get())) } else { Lobes::Wide }
     }
 }

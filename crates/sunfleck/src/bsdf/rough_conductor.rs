@@ -1,6 +1,6 @@
 //! Brushed, sand-blasted or worn metal: a landscape of metal facets.
 use super::{
-    Bsdf, BsdfSample, Conductor, ConductorMaterial, Lookup, Model, Roughness, Scatter, TextureId, Transport,
+    Bsdf, BsdfSample, Conductor, ConductorMaterial, Lobes, Lookup, Model, Roughness, Scatter, TextureId, Transport,
     facets::Landscape, ggx::reflect_up, seen_from,
 };
 use crate::{math::Local, spectrum::Spectrum};
@@ -67,7 +67,7 @@ impl Scatter for RoughConductor {
         BsdfSample::scattered(seen_from(wo, wi), weight, g.pdf)
     }
     #[inline]
-    fn is_connectible(&self) -> bool {
-        !self.metal.reflectance.is_black()
+    fn lobes(&self) -> Lobes {
+        if self.metal.reflectance.is_black() { Lobes::Delta } else { self.facets.lobes() }
     }
 }

@@ -1,6 +1,6 @@
 //! Ground or frosted glass: a landscape of clear facets.
 use super::{
-    Bsdf, BsdfSample, Dielectric, DielectricMaterial, Lookup, Model, Roughness, Scatter, TextureId, Transport,
+    Bsdf, BsdfSample, Dielectric, DielectricMaterial, Lobes, Lookup, Model, Roughness, Scatter, TextureId, Transport,
     facets::Landscape, fresnel, ggx::reflect_up, seen_from,
 };
 use crate::{math::Local, spectrum::Spectrum};
@@ -128,7 +128,8 @@ impl Scatter for RoughDielectric {
         Some(BsdfSample { eta, ..BsdfSample::scattered(s.wi, weight, pdf)? })
     }
     #[inline]
-    fn is_connectible(&self) -> bool {
-        !self.glass.reflectance.is_black() || !self.glass.transmittance.is_black()
+    fn lobes(&self) -> Lobes {
+        let black = self.glass.reflectance.is_black() && self.glass.transmittance.is_black();
+        if black { Lobes::Delta } else { self.facets.lobes() }
     }
 }

@@ -1,6 +1,7 @@
 //! A matt base under a rough, clear boundary that reflects by Fresnel's own equations: Mitsuba's rough plastic.
 use super::{
-    BsdfSample, Facets, Landscape, Lookup, Model, Scatter, TextureId, Transport, fresnel, ggx::reflect_up, seen_from,
+    BsdfSample, Facets, Landscape, Lobes, Lookup, Model, Scatter, TextureId, Transport, fresnel, ggx::reflect_up,
+    seen_from,
 };
 use crate::{
     math::{
@@ -198,7 +199,7 @@ impl Scatter for RoughPlastic {
         BsdfSample::scattered(seen_from(wo, wi), self.f(up, wi) * (wi.cos_theta() / pdf), pdf)
     }
     #[inline]
-    fn is_connectible(&self) -> bool {
-        !self.base.is_black() || !self.specular.is_black()
+    fn lobes(&self) -> Lobes {
+        Lobes::wide_if(!self.base.is_black() || !self.specular.is_black())
     }
 }

@@ -117,7 +117,7 @@ impl Params {
         let d = Limits::default();
         let scatterings = self.count(COMMON[0].name, u64::from(d.scatterings), 0..=10_000)? as u32;
         let roulette_after = self.count(COMMON[1].name, u64::from(d.roulette_after), 0..=10_000)? as u32;
-        Ok(Limits { scatterings, roulette_after })
+        Ok(Limits { scatterings, roulette_after, ..d })
     }
     /// Complains of what nobody took.
     pub(super) fn finish(self, entry: &Entry) -> Result<(), ParamError> {

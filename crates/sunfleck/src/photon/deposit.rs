@@ -1,6 +1,7 @@
 //! Which arrivals of light paths become photons, and showers of such paths.
 use super::Source;
 use crate::{
+    bsdf::Lobes,
     film::Counts,
     sampler::{Domain, Sampler},
     scene::World,
@@ -22,7 +23,7 @@ pub struct Photon {
     pub scatterings: u16,
     /// Some boundary parted its wavelengths, and its flux is that of the hero alone: see [`crate::spectrum`].
     pub dispersed: bool,
-    /// It came from a mirror or through glass last.
+    /// It came from a mirror or through glass last, or what is almost that: see [`Arrival::caustic`].
     pub caustic: bool,
 }
 
@@ -35,7 +36,7 @@ pub enum Keep {
     Scattered,
     /// What came through delta scatterings only, and at least one: `L S⁺`. Paths end where they first scatter otherwise.
     Caustic,
-    /// What was scattered last by a delta lobe: `L (S|D)* S`.
+    /// What was scattered last by a delta lobe, or a narrow one that gathers nothing: `L (S|D)* S`.
     LastDelta,
     /// What was scattered by some lobe with a density: `L S* D (S|D)*`.
     Indirect,
@@ -48,7 +49,7 @@ impl Keep {
             Self::All => true,
             Self::Scattered => a.scatterings > 0,
             Self::Caustic => a.scatterings > 0 && a.all_delta,
-            Self::LastDelta => a.scatterings > 0 && a.delta,
+            Self::LastDelta => a.caustic,
             Self::Indirect => !a.all_delta,
         }
     }
@@ -97,7 +98,7 @@ impl Shower {
         let chunks: Vec<Catch> = (0..self.paths.div_ceil(CHUNK))
             .into_par_iter()
             .map(|c| {
-                let mut deposit = Deposit { keep: self.keep, catch: Catch::default() };
+                let mut deposit = Deposit { keep: self.keep, least: limits.gathers, catch: Catch::default() };
                 for path in c * CHUNK..((c + 1) * CHUNK).min(self.paths) {
                     self.trace(world, source, limits, path, &mut deposit);
                 }
@@ -130,16 +131,18 @@ impl Catch {
 /// Stores what arrives.
 struct Deposit {
     keep: Keep,
+    /// [`Limits::gathers`].
+    least: Lobes,
     catch: Catch,
 }
 
 impl Visit for Deposit {
     #[inline]
     fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
-        if self.keep.keeps(a) && a.at.gathers {
+        if self.keep.keeps(a) && a.at.widest >= self.least {
             self.catch.positions.push(a.at.p);
             let scatterings = a.scatterings.min(u32::from(u16::MAX)) as u16;
-            let (dispersed, caustic) = (a.dispersed, a.delta && a.scatterings > 0);
+            let (dispersed, caustic) = (a.dispersed, a.caustic);
             self.catch.photons.push(Photon { flux: a.beta, wi: a.at.wo, scatterings, dispersed, caustic });
         }
         if self.keep == Keep::Caustic { Step::OnIfDelta } else { Step::On }

@@ -1,5 +1,6 @@
 //! Where a camera path first gathers.
 use crate::{
+    bsdf::Lobes,
     camera::{Project, Spread},
     film::FilmSpec,
     sampler::Sampler,
@@ -9,7 +10,7 @@ use crate::{
 };
 use glam::Vec2;
 
-/// The first connectible surface on a camera path, past mirrors and glass.
+/// The first surface on a camera path that gathers photons, past mirrors and glass.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Sight {
     pub(crate) at: Interaction,
@@ -34,7 +35,7 @@ impl Sight {
     ) -> Option<Self> {
         let camera = world.camera().ray(raster, u_lens);
         let start = Start::from_camera(world, camera.ray);
-        let mut first = First { spread: camera.spread, found: None };
+        let mut first = First { least: limits.gathers, spread: camera.spread, found: None };
         walk(world, &start, &limits, sampler, &mut first);
         first.found
     }
@@ -45,14 +46,15 @@ impl Sight {
 }
 
 struct First {
+    least: Lobes,
     spread: Spread,
     found: Option<Sight>,
 }
 
 impl Visit for First {
     fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
-        if !a.at.is_connectible() {
-            return Step::OnIfDelta;
+        if !a.at.gathers(self.least) {
+            return Step::On;
         }
         self.found = Some(Sight {
             at: *a.at,

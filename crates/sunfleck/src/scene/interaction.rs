@@ -1,7 +1,7 @@
 //! A point where a path meets a surface, and everything that can be asked there.
 use super::{MaterialId, Surface};
 use crate::{
-    bsdf::{Bsdf, BsdfSample, Scatter, Transport, cover::Covered},
+    bsdf::{Bsdf, BsdfSample, Lobes, Scatter, Transport, cover::Covered},
     light::{EmitterHit, LightEnd, LightId},
     math::{Frame, Local, Ray, offset_origin},
     medium::Medium,
@@ -31,9 +31,9 @@ pub struct Interaction {
     pub bsdf: Bsdf,
     /// What `bsdf` was made of.
     pub material: MaterialId,
-    /// Photons are kept here. Where materials are mixed, that is so wherever one of them has a density, even if this path
-    /// met another.
-    pub gathers: bool,
+    /// The widest lobes of the material, which say whether photons are kept here. Where materials are mixed, those of all
+    /// of them, even if this path met another.
+    pub widest: Lobes,
     /// The light on this surface.
     pub light: Option<LightId>,
     /// What lies on the side of `wo`, and on the other.
@@ -85,16 +85,16 @@ impl NearSide {
 impl Interaction {
     #[inline(always)]
     pub(super) fn new(s: &SurfacePoint, wo: Vec3, distance: f32, bsdf: Bsdf, surface: &Surface) -> Self {
-        let covered = Covered { bsdf, frame: Frame::from_normal(s.n), gathers: bsdf.is_connectible() };
+        let covered = Covered { bsdf, frame: Frame::from_normal(s.n), widest: bsdf.lobes() };
         Self::covered(s, wo, distance, &covered, surface)
     }
     #[inline(always)]
     pub(super) fn covered(s: &SurfacePoint, wo: Vec3, distance: f32, by: &Covered, surface: &Surface) -> Self {
-        let Covered { bsdf, frame, gathers } = *by;
+        let Covered { bsdf, frame, widest } = *by;
         let (material, light) = (surface.material, surface.light);
         let (near, far) = (Medium::VACUUM, Medium::VACUUM);
         let (p, p_error, ng, uv) = (s.p, s.p_error, s.ng, s.uv);
-        Self { p, p_error, ng, frame, wo, distance, uv, bsdf, material, gathers, light, near, far }
+        Self { p, p_error, ng, frame, wo, distance, uv, bsdf, material, widest, light, near, far }
     }
     /// The emitting surface that was met.
     #[inline]
@@ -105,6 +105,11 @@ impl Interaction {
     #[inline]
     pub fn is_connectible(&self) -> bool {
         self.bsdf.is_connectible()
+    }
+    /// Whether a camera path gathers photons here.
+    #[inline]
+    pub fn gathers(&self, least: Lobes) -> bool {
+        self.bsdf.lobes() >= least
     }
 
     /// The scattering function in 1/sr without any cosine; zero where the shading and the geometric normal disagree

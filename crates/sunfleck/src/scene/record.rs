@@ -33,7 +33,7 @@ impl Record {
     /// The hit with its scattering. It has no light, a distance of 0, and empty space on both sides.
     #[inline]
     pub(super) fn with(&self, bsdf: Bsdf) -> Interaction {
-        let gathers = bsdf.is_connectible();
+        let widest = bsdf.lobes();
         Interaction {
             p: self.p,
             p_error: Vec3::splat(self.p_error),
@@ -44,7 +44,7 @@ impl Record {
             uv: self.uv,
             bsdf,
             material: self.material,
-            gathers,
+            widest,
             light: None,
             near: Medium::VACUUM,
             far: Medium::VACUUM,

@@ -117,6 +117,7 @@ agreement![
     environment_light,
     rough_glass,
     rough_metal,
+    haze,
     glossy_paint,
     textures,
     unlike_lights,

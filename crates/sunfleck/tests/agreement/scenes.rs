@@ -7,8 +7,8 @@ mod moving;
 use glam::{Affine3A, Quat, Vec3};
 use sunfleck::{
     bsdf::{
-        ConductorMaterial, CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, MirrorMaterial, PhongMaterial,
-        RoughConductorMaterial, RoughDielectricMaterial,
+        ConductorMaterial, CookTorranceMaterial, DielectricMaterial, DiffuseMaterial, MirrorMaterial, MixMaterial,
+        PhongMaterial, RoughConductorMaterial, RoughDielectricMaterial,
     },
     camera::{Orthographic, Perspective, Spherical, Unrolling, View},
     light::{PointLight, Sides},
@@ -22,7 +22,7 @@ pub(crate) struct TinyScene {
     pub(crate) name: &'static str,
     /// What is difficult, for the table in the book.
     pub(crate) about: &'static str,
-    /// Algorithms that cannot find all its light.
+    /// Algorithms that cannot find all its light, or only with sparks that no test can wait for.
     pub(crate) blind: &'static [&'static str],
     pub(crate) build: fn() -> Scene,
 }
@@ -33,6 +33,9 @@ const NONE: &[&str] = &[];
 const LIGHT: &[&str] = &["light"];
 /// A caustic of a point light, seen through glass: no light can be met by chance, and nothing be connected.
 const ALL_BUT_PHOTONS: &[&str] = &["path", "light", "bdpt"];
+
+/// Of the photons on narrow lobes hardly any is scattered to the eye, and those are very bright.
+const NEAREST_PHOTONS: &[&str] = &["photonmap"];
 
 const fn tiny(
     name: &'static str,
@@ -68,6 +71,7 @@ pub(crate) const SCENES: &[TinyScene] = &[
     tiny("environment_light", "a sky with a bright patch", NONE, lights::environment_light),
     tiny("rough_glass", "frosted glass", NONE, rough_glass),
     tiny("rough_metal", "rough gold", NONE, rough_metal),
+    tiny("haze", "glass with a lamp in it, and metal beside matt metal, both with a haze", NEAREST_PHOTONS, haze),
     tiny("glossy_paint", "highlights on paint", NONE, glossy_paint),
     tiny("textures", "a texture", NONE, textures),
     tiny("unlike_lights", "lights of unlike power", NONE, lights::unlike_lights),
@@ -306,6 +310,21 @@ fn rough_metal() -> Scene {
         b.material(RoughConductorMaterial { metal: ConductorMaterial { eta, k, reflectance }, alpha: 0.3.into() });
     b.add(ball([-0.2, -0.4, 0.0], 0.6), gold);
     emit(&mut b, lamp(1.2, 0.95), Vec3::splat(5.0), Sides::One);
+    finish(b)
+}
+
+/// Lobes so narrow that some algorithms treat them as mirrors; half of the metal is matt.
+fn haze() -> Scene {
+    let mut b = room();
+    let glass = clear_glass(&mut b);
+    let hazy = b.material(RoughDielectricMaterial { glass, alpha: 0.1.into() });
+    b.add(ball([0.35, -0.35, 0.1], 0.4), hazy);
+    emit(&mut b, ball([0.35, -0.35, 0.1], 0.25), Vec3::splat(5.0), Sides::One);
+    let [eta, k, reflectance] = [0.2, 3.5, 0.9].map(|c| b.constant(Vec3::splat(c)));
+    let metal = ConductorMaterial { eta, k, reflectance };
+    let [bright, dull] = [0.1, 0.5].map(|a| b.material(RoughConductorMaterial { metal, alpha: a.into() }));
+    let half = b.material(MixMaterial { of: [bright, dull], amount: 0.5.into() });
+    b.add(ball([-0.45, -0.5, 0.2], 0.35), half);
     finish(b)
 }
 

@@ -3,9 +3,10 @@
 use crate::scenes::{ball, eye, glass, matt, patch, spec, walls};
 use glam::Vec3;
 use sunfleck::{
+    bsdf::{DielectricMaterial, Lobes, RoughDielectricMaterial},
     light::{LightId, PointLight},
     photon::{Account, Audit, Keep, Ledger, Radii, Source},
-    scene::{Scene, SceneBuilder},
+    scene::{MaterialId, Scene, SceneBuilder},
     spectrum::Rgb,
     walk::Limits,
 };
@@ -126,17 +127,43 @@ fn photons_below_a_floor_that_is_seen_from_above_are_not_gathered() {
     assert_eq!((a.gathered.count, a.useful), (0, 0));
 }
 
+/// A ball below a lamp of 3 W in a grey cube.
+fn ball_in_a_cube(material: impl Fn(&mut SceneBuilder) -> MaterialId) -> Scene {
+    let mut b = SceneBuilder::new();
+    let (grey, material) = (matt(&mut b, Rgb::splat(0.6)), material(&mut b));
+    walls().into_iter().for_each(|w| b.add(w, grey));
+    b.add(ball([0.0, -0.5, 0.3], 0.3), material);
+    lamp(&mut b, [0.0, 0.5, 0.0], 3.0);
+    b.camera(eye(Vec3::new(0.0, 0.0, -0.9), Vec3::ZERO, 60.0));
+    b.build().expect("a scene")
+}
+
+#[test]
+fn what_narrow_lobes_scattered_last_counts_as_caustic_where_they_gather_nothing() {
+    for (alpha, gathers, is_caustic) in
+        [(0.09, Lobes::Wide, true), (0.09, Lobes::Narrow, false), (0.2, Lobes::Wide, false)]
+    {
+        let scene = ball_in_a_cube(|b| {
+            let white = b.constant(Vec3::ONE);
+            let glass = DielectricMaterial { eta: 1.5.into(), reflectance: white, transmittance: white };
+            b.material(RoughDielectricMaterial { glass, alpha: alpha.into() })
+        });
+        let limits = Limits { gathers, ..Limits::default() };
+        let audit = |keep| {
+            let (source, radii) = (Source::plain(), Radii::fixed(0.05));
+            only(&Audit { source, keep, radii, limits, seed: 5, paths: PATHS }.of(&scene, spec(64)))
+        };
+        let caustic = audit(Keep::LastDelta);
+        assert_eq!(caustic.stored.count > 1000, is_caustic, "{alpha} {gathers:?}: {caustic:?}");
+        assert_eq!(caustic.stored.count > 0, is_caustic, "{alpha} {gathers:?}: {caustic:?}");
+    }
+}
+
 #[test]
 fn what_mirrors_and_glass_scattered_last_is_kept_by_that_rule_alone() {
     let plain = only(&audit(&cube(0.6, 6), Keep::LastDelta, 64));
     assert_eq!(plain.stored.count, 0);
-    let mut b = SceneBuilder::new();
-    let (grey, clear) = (matt(&mut b, Rgb::splat(0.6)), glass(&mut b, 1.5));
-    walls().into_iter().for_each(|w| b.add(w, grey));
-    b.add(ball([0.0, -0.5, 0.3], 0.3), clear);
-    lamp(&mut b, [0.0, 0.5, 0.0], 3.0);
-    b.camera(eye(Vec3::new(0.0, 0.0, -0.9), Vec3::ZERO, 60.0));
-    let scene = b.build().expect("a scene");
+    let scene = ball_in_a_cube(|b| glass(b, 1.5));
     let caustic = only(&audit(&scene, Keep::LastDelta, 64));
     balances(&caustic);
     assert!(caustic.stored.count > 1000 && caustic.gathered.count > 100, "{caustic:?}");

@@ -5,7 +5,7 @@
 //! each ray sees one material, in proportion to the shares. That is right for all algorithms alike. Camera paths,
 //! light paths and shadow rays meet a mask with the same probability, so densities that are weighed against each
 //! other lack the same factor; and what a path meets at a mixed surface is one model, for which all weights sum to one.
-//! The one thing that may not depend on the toss is where photons are left ([`Covered::gathers`]): whether they
+//! The one thing that may not depend on the toss is where photons are left ([`Covered::widest`]): whether they
 //! count is the camera's toss.
 mod coin;
 mod mask;
@@ -21,7 +21,7 @@ pub use relief::{BumpMapMaterial, NormalMapMaterial};
 pub use turned::TurnedMaterial;
 pub use two_sided::TwoSidedMaterial;
 
-use super::{Black, Bsdf, Lookup, Material, MaterialEntry, Scatter, TextureId};
+use super::{Black, Bsdf, Lobes, Lookup, Material, MaterialEntry, Scatter, TextureId};
 use crate::{math::Frame, shape::Tangents};
 use glam::Vec3;
 
@@ -55,8 +55,8 @@ pub struct Covered {
     pub bsdf: Bsdf,
     /// Shading frame.
     pub frame: Frame,
-    /// Photons are kept here: `bsdf`, or what another toss of the coin would have met, has a density.
-    pub gathers: bool,
+    /// The widest lobes that `bsdf`, or what another toss of the coin would have met, has.
+    pub widest: Lobes,
 }
 
 /// One of the materials of this room.
@@ -171,21 +171,21 @@ pub(crate) fn cover(id: MaterialId, mut site: Site) -> Covered {
             }
             model => {
                 let bsdf = model.resolve(&site.at);
-                let gathers = bsdf.is_connectible() || first_mix.is_some_and(|id| may_gather(id, &site));
-                return Covered { bsdf, frame: site.frame(), gathers };
+                let others = first_mix.map_or(Lobes::Delta, |id| widest(id, &site));
+                return Covered { bsdf, frame: site.frame(), widest: bsdf.lobes().max(others) };
             }
         };
     }
-    let gathers = first_mix.is_some_and(|id| may_gather(id, &site));
-    Covered { bsdf: Black.into(), frame: site.frame(), gathers }
+    let widest = first_mix.map_or(Lobes::Delta, |id| widest(id, &site));
+    Covered { bsdf: Black.into(), frame: site.frame(), widest }
 }
 
-/// Whether some toss of the coin finds a density under `id`.
-fn may_gather(id: MaterialId, site: &Site) -> bool {
+/// The widest lobes that some toss of the coin finds under `id`.
+fn widest(id: MaterialId, site: &Site) -> Lobes {
     match &site.materials[id.0 as usize] {
-        Material::Covering(Covering::TwoSided(m)) => m.side(site.outside).is_some_and(|id| may_gather(id, site)),
-        Material::Covering(c) => c.parts().iter().any(|id| may_gather(*id, site)),
-        model => model.resolve(&site.at).is_connectible(),
+        Material::Covering(Covering::TwoSided(m)) => m.side(site.outside).map_or(Lobes::Delta, |id| widest(id, site)),
+        Material::Covering(c) => c.parts().iter().map(|id| widest(*id, site)).max().unwrap_or(Lobes::Delta),
+        model => model.resolve(&site.at).lobes(),
     }
 }
 

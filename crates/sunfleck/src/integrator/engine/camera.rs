@@ -66,6 +66,8 @@ pub(super) struct Look<'w> {
     mirrors_only: bool,
     /// The first surface was a mirror or glass.
     mirrored: bool,
+    /// The last vertex gathered all but direct light.
+    gathered: bool,
     /// [`Joins::hit_share`] of the last vertex.
     hit_share: f32,
     /// Where the current leg began.
@@ -92,6 +94,7 @@ impl<'w> Look<'w> {
             track: Track::new(),
             mirrors_only: true,
             mirrored: false,
+            gathered: false,
             hit_share: 1.0,
             from: start.from,
             sum: Spectrum::BLACK,
@@ -147,7 +150,7 @@ impl Visit for Look<'_> {
         let sums = self.track.arrive_from_camera(&self.rule, self.pixel, a.scatterings, a.at);
         self.meet(a, &sums);
         let first_only = self.rule.on.merge.at_first_only();
-        if first_only && !a.delta {
+        if self.gathered {
             return Step::Stop;
         }
         self.track.sums = sums;
@@ -157,8 +160,10 @@ impl Visit for Look<'_> {
             sampler.skip_many(2);
             return Step::On;
         }
-        let rough = self.rule.rough(&sums);
-        self.hit_share = if first_only { eye.world.hit_share(a.at) } else { 1.0 };
+        let rough = self.rule.rough(&sums, a.at);
+        let gathers = a.at.gathers(self.rule.least);
+        self.gathered = first_only && gathers;
+        self.hit_share = if self.gathered { eye.world.hit_share(a.at) } else { 1.0 };
         if self.rule.on.nee {
             let (u_light, u) = (eye.world.light_number(sampler), sampler.next_2d());
             self.choose_light(a, &rough, u_light, u);
@@ -168,17 +173,19 @@ impl Visit for Look<'_> {
         if self.rule.on.connect {
             self.connect(a, &rough);
         }
-        if self.rule.on.merge.is_on() && sums.shared > 0.0 {
+        if gathers && self.rule.on.merge.is_on() && sums.shared > 0.0 {
             self.gather(a, &rough);
         }
         // Past the first gather, the walk goes on for lights that next-event estimation finds badly, and for nothing else.
         let goes_on =
-            !first_only || (self.rule.on.nee && (self.hit_share >= 1.0 || sampler.next_1d() < self.hit_share));
+            !self.gathered || (self.rule.on.nee && (self.hit_share >= 1.0 || sampler.next_1d() < self.hit_share));
         if goes_on { Step::On } else { Step::OnIfDelta }
     }
     #[inline]
     fn scatter(&mut self, at: &Interaction, s: &Scattered) {
         self.mirrors_only &= !at.is_connectible();
+        // What delta lobes bring was not gathered.
+        self.gathered &= !s.delta;
         self.track.depart_from_camera(&self.rule, at, s);
     }
     #[inline]

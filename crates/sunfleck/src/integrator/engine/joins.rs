@@ -62,7 +62,7 @@ impl Joins<'_> {
         let hit_over_pdf =
             if self.world.light(d.light).is_delta() { 0.0 } else { self.hit_share * at.pdf(li.wi) / li.pdf };
         if !self.rule.needs_sums() {
-            return self.rule.nee_weight(sums, hit_over_pdf, 0.0, 0.0, self.eta);
+            return self.rule.nee_weight(sums, at, hit_over_pdf, 0.0, 0.0, self.eta);
         }
         // Per area at the vertex, over the choice of the light's point in the measure of the emission.
         let (hit, to_emission) = match &li.end {
@@ -72,14 +72,17 @@ impl Joins<'_> {
         };
         let emitted = self.source.pdf(self.world, d.light, hit.as_ref(), at.p, -li.wi);
         let emitted_over_pdf = emitted * at.true_cos(li.wi) / (li.pdf * to_emission);
-        self.rule.nee_weight(sums, hit_over_pdf, emitted_over_pdf, at.pdf_back(li.wi), self.eta)
+        self.rule.nee_weight(sums, at, hit_over_pdf, emitted_over_pdf, at.pdf_back(li.wi), self.eta)
     }
     /// Weight of the connection from `at` toward `wi` to `v`, the square of `d2` away.
     #[inline]
     pub(super) fn connect(&self, sums: &Sums, at: &Interaction, v: &vertex::LightEnd, wi: Vec3, d2: f32) -> f32 {
-        let light = Joint { sums: v.sums, area: at.pdf(wi) * v.at.true_cos(wi) / d2, back: v.at.pdf_back(-wi) };
-        let camera = Joint { sums, area: v.at.pdf(-wi) * at.true_cos(wi) / d2, back: at.pdf_back(wi) };
-        self.rule.connect_weight(&camera, &light, v.merges, self.eta)
+        // Photons of the camera vertex come from the light vertex.
+        let merges = self.rule.merges(at, 1, !v.at.gathers(self.rule.least));
+        let camera = Joint { sums, area: v.at.pdf(-wi) * at.true_cos(wi) / d2, back: at.pdf_back(wi), merges };
+        let (area, merges) = (at.pdf(wi) * v.at.true_cos(wi) / d2, v.merges);
+        let light = Joint { sums: v.sums, area, back: v.at.pdf_back(-wi), merges };
+        self.rule.connect_weight(&camera, &light, self.eta)
     }
 }
 

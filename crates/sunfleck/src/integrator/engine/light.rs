@@ -186,13 +186,13 @@ impl Visit for Shine<'_, '_> {
         let rule = &self.shower.rule;
         let sums = if a.scatterings == 0 { self.leave(a.at) } else { self.track.after(rule, Leg::to(a.at)) };
         self.track.sums = sums;
-        self.merges = rule.merges(a.scatterings, a.delta);
+        self.merges = rule.merges(a.at, a.scatterings, a.caustic);
         // At every vertex, so that what follows does not depend on the material.
         let u_lens = if rule.on.light_image { lens_point(self.shower.world, sampler) } else { Vec2::ZERO };
         if self.shower.limits.scatterings == 0 {
             return Step::On;
         }
-        if a.at.gathers && self.shower.keep.takes(a.scatterings, a.delta) {
+        if a.at.widest >= rule.least && self.shower.keep.takes(a.scatterings, a.caustic) {
             self.deposit(a, &sums);
         }
         if !a.at.is_connectible() {
@@ -221,7 +221,7 @@ impl Shine<'_, '_> {
             // Limits are far below.
             scatterings: a.scatterings as u16,
             dispersed: a.dispersed,
-            caustic: a.delta && a.scatterings > 0,
+            caustic: a.caustic,
             sums: s.into(),
         });
     }

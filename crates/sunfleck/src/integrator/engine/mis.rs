@@ -19,6 +19,7 @@
 //! a disk seen under one degree). Their factor `C / (C + L − C·L)` also has the probability `L` of the light's part, and
 //! no recursive form; ours is the square root of `C`, a product, which does.
 use super::techniques::{Heuristic, Merge, Techniques};
+use crate::{bsdf::Lobes, scene::Interaction};
 
 /// Probability of sharing a place below which camera paths go on alone: past a matt surface, photons are not merged
 /// again, which would cost much and add little to those of the first merging.
@@ -29,6 +30,8 @@ const APART: f32 = 0.02;
 pub(super) struct Rule {
     pub(super) on: Techniques,
     pub(super) heuristic: Heuristic,
+    /// The least lobes at which photons are left and gathered: [`crate::walk::Limits::gathers`].
+    pub(super) least: Lobes,
     /// Light paths of the pass.
     pub(super) paths: f32,
     /// Area (world units²) within which camera vertices count as the same place.
@@ -132,23 +135,25 @@ impl Rule {
     pub(super) fn images(&self, scatterings: u32) -> bool {
         self.on.light_image && (scatterings > 0 || !self.on.nee)
     }
-    /// 1 if photons that were scattered `scatterings` times, last by a delta lobe if `delta`, are merged beside other
-    /// samplers; else 0.
+    /// 1 if photons at `at` that were scattered `scatterings` times, last as [`crate::walk::Arrival::caustic`] says, are merged
+    /// beside other samplers; else 0.
     #[inline]
-    pub(super) fn merges(&self, scatterings: u32, delta: bool) -> f32 {
-        let on = self.on.merge.takes(scatterings, delta) && !self.on.merge.at_first_only();
+    pub(super) fn merges(&self, at: &Interaction, scatterings: u32, caustic: bool) -> f32 {
+        let merge = self.on.merge;
+        let on = merge.takes(scatterings, caustic) && !merge.at_first_only() && at.gathers(self.least);
         f32::from(u8::from(on))
     }
-    /// Whether photons that came from a mirror or through glass last, if `caustic`, are gathered.
+    /// Whether photons that came as caustics do, if `caustic`, are gathered.
     #[inline]
     pub(super) fn gathers(&self, caustic: bool) -> bool {
         caustic || self.on.merge != Merge::Caustic
     }
     /// The sums of a camera subpath at a vertex that goes on by a lobe with a density: merging before it would have
-    /// taken a photon from there, which only then is no caustic.
+    /// taken a photon from there, which, if the vertex gathers, is no caustic.
     #[inline]
-    pub(super) fn rough(&self, s: &Sums) -> Sums {
-        let vm_last = if self.on.merge == Merge::Caustic { 0.0 } else { s.vm_last };
+    pub(super) fn rough(&self, s: &Sums, at: &Interaction) -> Sums {
+        let plain = self.on.merge == Merge::Caustic && at.gathers(self.least);
+        let vm_last = if plain { 0.0 } else { s.vm_last };
         Sums { vm_last, ..*s }
     }
     /// `vcm` of a vertex past the first, drawn with density (1/sr) `pdf`, as the connection before it.

@@ -144,7 +144,7 @@ impl Engine {
             return Err(ParamError::Value { name: "chains", value: "on".into(), expected });
         }
         Ok(Self {
-            limits: p.limits()?,
+            limits: Limits { gathers: d.limits.gathers, ..p.limits()? },
             paths: (paths > 0).then_some(paths),
             radius: (radius > 0.0).then_some(radius),
             radius_scale: p.number("radius-scale", 1.0, 1e-6..=1e6)? as f32,
@@ -340,7 +340,8 @@ impl Prepared<'_> {
 
     fn rule(&self, paths: u64) -> Rule {
         let paths = paths as f32 * self.chains.as_ref().map_or(1.0, |c| c.length as f32);
-        Rule { on: self.engine.on, heuristic: self.engine.heuristic, paths, same_place: self.same_place }
+        let Engine { on, heuristic, limits, .. } = *self.engine;
+        Rule { on, heuristic, least: limits.gathers, paths, same_place: self.same_place }
     }
 
     fn render(&self, job: &Job, image: &mut PassImage) {

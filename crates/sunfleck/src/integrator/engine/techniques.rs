@@ -27,8 +27,8 @@ pub enum Merge {
     /// At every camera vertex, of photons that were scattered at least once: what comes straight from a light is left to
     /// the other samplers.
     Scattered,
-    /// At every camera vertex, of photons that came from a mirror or through glass last: what other samplers find badly or
-    /// not at all.
+    /// At every camera vertex, of photons that came from a mirror or through glass last, or what is almost that: what other
+    /// samplers find badly or not at all.
     Caustic,
     /// At the first camera vertex only, of scattered photons, which then find all that is not direct light.
     First,
@@ -45,14 +45,14 @@ impl Merge {
     pub fn of_direct(self) -> bool {
         matches!(self, Self::All | Self::FirstAll)
     }
-    /// Whether photons that were scattered `scatterings` times, last by a delta lobe if `delta`, are gathered.
+    /// Whether photons that were scattered `scatterings` times, last as [`crate::walk::Arrival::caustic`] says, are gathered.
     #[inline]
-    pub(super) fn takes(self, scatterings: u32, delta: bool) -> bool {
+    pub(super) fn takes(self, scatterings: u32, caustic: bool) -> bool {
         match self {
             Self::Off => false,
             Self::All | Self::FirstAll => true,
             Self::Scattered | Self::First => scatterings > 0,
-            Self::Caustic => scatterings > 0 && delta,
+            Self::Caustic => caustic,
         }
     }
     /// Which arrivals of light paths are kept: as [`Merge::takes`], and all of them, for connections, if nothing is gathered.

@@ -55,9 +55,9 @@ impl Track {
         }
         // Photons gathered here will have been scattered at the next vertex, by a delta lobe for all that is known: `rough`
         // takes it back if not, and `hit_weight` if that vertex is the light.
-        let merges = rule.merges(1, true) * self.sums.shared;
+        let merges = rule.merges(at, 1, true) * self.sums.shared;
         if !s.delta {
-            self.sums = rule.rough(&self.sums);
+            self.sums = rule.rough(&self.sums, at);
         }
         self.depart(at, s, merges, |_| 1.0);
     }

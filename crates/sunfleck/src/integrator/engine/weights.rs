@@ -6,6 +6,7 @@ use super::{
     mis::{Rule, Sums},
     vertex::LightSums,
 };
+use crate::scene::Interaction;
 
 /// Densities (1/sr) of scattering at a vertex between its two neighbours.
 #[derive(Clone, Copy, Debug)]
@@ -41,14 +42,22 @@ impl Rule {
         weight(nee + h.of(emitted) * (vc + eta * vm))
     }
 
-    /// A point of a light chosen from a camera vertex. `hit_over_pdf`: density of meeting it by chance over that of the
+    /// A point of a light chosen from the camera vertex `at`. `hit_over_pdf`: density of meeting it by chance over that of the
     /// choice, 0 where none can; `emitted_over_pdf`: density (per area at the vertex) of the light's emission toward the
     /// vertex over that of the choice; `back`: density (1/sr) at the vertex from the light to the camera's side.
     #[inline]
-    pub(super) fn nee_weight(&self, s: &Sums, hit_over_pdf: f32, emitted_over_pdf: f32, back: f32, eta: f32) -> f32 {
+    pub(super) fn nee_weight(
+        &self,
+        s: &Sums,
+        at: &Interaction,
+        hit_over_pdf: f32,
+        emitted_over_pdf: f32,
+        back: f32,
+        eta: f32,
+    ) -> f32 {
         let h = self.heuristic;
         let hit = if self.on.hit { h.of(hit_over_pdf) } else { 0.0 };
-        let here = eta * s.shared * self.merges(0, false);
+        let here = eta * s.shared * self.merges(at, 0, false);
         let image = if self.images(0) { s.image } else { 0.0 };
         weight(hit + h.of(emitted_over_pdf) * (here + s.vcm + image + h.of(back) * (s.vc() + eta * s.vm())))
     }
@@ -64,19 +73,17 @@ impl Rule {
     }
 
     /// A camera vertex connected to a light vertex. `to_light`, `to_camera`: density (1/m²) of the one subpath's last vertex
-    /// as drawn from the other's; `merges`: [`Rule::merges`] of the light vertex.
+    /// as drawn from the other's.
     #[inline]
-    pub(super) fn connect_weight(&self, camera: &Joint<Sums>, light: &Joint<LightSums>, merges: f32, eta: f32) -> f32 {
+    pub(super) fn connect_weight(&self, camera: &Joint<Sums>, light: &Joint<LightSums>, eta: f32) -> f32 {
         let h = self.heuristic;
         let (c, l) = (camera.sums, light.sums);
-        // Photons of the camera vertex come from the light vertex.
-        let camera_merges = self.merges(1, false) * c.shared;
         let light_shared = c.shared * self.sharing(light.area);
         let farther = light_shared * self.sharing(light.back * l.geometry);
-        let on_light =
-            h.of(light.area) * (eta * merges * light_shared + l.vcm + h.of(light.back) * (l.vc + eta * farther * l.vm));
-        let on_camera =
-            h.of(camera.area) * (eta * camera_merges + c.vcm + c.image + h.of(camera.back) * (c.vc() + eta * c.vm()));
+        let on_light = h.of(light.area)
+            * (eta * light.merges * light_shared + l.vcm + h.of(light.back) * (l.vc + eta * farther * l.vm));
+        let on_camera = h.of(camera.area)
+            * (eta * camera.merges * c.shared + c.vcm + c.image + h.of(camera.back) * (c.vc() + eta * c.vm()));
         weight(on_light + on_camera)
     }
 
@@ -108,4 +115,6 @@ pub(super) struct Joint<'s, S> {
     pub(super) area: f32,
     /// Density (1/sr) from the other subpath to this one's past.
     pub(super) back: f32,
+    /// [`Rule::merges`] of its vertex.
+    pub(super) merges: f32,
 }

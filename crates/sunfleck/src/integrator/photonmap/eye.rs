@@ -100,6 +100,7 @@ impl CameraWalk<'_, '_> {
         let limits = Limits {
             scatterings: most,
             roulette_after: settings.limits.roulette_after.saturating_sub(a.scatterings + 1),
+            ..settings.limits
         };
         let n = settings.final_gather;
         let shift = (sampler.next_1d(), sampler.next_2d());

@@ -1,5 +1,6 @@
 //! What the camera needs: places where photons will be gathered, and what its paths meet on the way.
 use crate::{
+    bsdf::Lobes,
     camera::{Project, Spread},
     film::FilmSpec,
     photon::{Reach, Sighting},
@@ -25,7 +26,7 @@ pub(super) struct Spot {
 /// What a number of camera paths found.
 pub(super) struct Needs {
     pub(super) spots: Vec<Spot>,
-    /// Points where camera paths went on by a delta lobe, and all points that they met.
+    /// Points where camera paths went on as caustics do, and all points that they met.
     pub(super) bent: Vec<Vec3>,
     pub(super) met: Vec<Vec3>,
 }
@@ -44,7 +45,7 @@ impl Needs {
             let mut sampler = Sampler::new(seed, Domain::Prepare, u64::MAX - 1, index);
             let camera = world.camera().ray(sampler.next_2d(), sampler.next_2d());
             let start = Start::from_camera(world, camera.ray);
-            let mut glance = Glance::new(world, camera.spread.of_pixel(spec.pixels()));
+            let mut glance = Glance::new(world, limits.gathers, camera.spread.of_pixel(spec.pixels()));
             walk(world, &start, &limits, &mut sampler, &mut glance);
             (glance.spot, glance.bent, glance.met)
         };
@@ -62,6 +63,7 @@ impl Needs {
 /// Follows one camera path to the second place where photons could be gathered.
 struct Glance<'w> {
     world: &'w World<'w>,
+    least: Lobes,
     pixel: Spread,
     spot: Option<Spot>,
     bent: Vec<Vec3>,
@@ -69,12 +71,12 @@ struct Glance<'w> {
 }
 
 impl<'w> Glance<'w> {
-    fn new(world: &'w World<'w>, pixel: Spread) -> Self {
-        Self { world, pixel, spot: None, bent: Vec::new(), met: Vec::new() }
+    fn new(world: &'w World<'w>, least: Lobes, pixel: Spread) -> Self {
+        Self { world, least, pixel, spot: None, bent: Vec::new(), met: Vec::new() }
     }
-    /// The last scattering turns out to have been from a delta lobe.
-    fn bend(&mut self, scatterings: u32, delta: bool) {
-        if scatterings > 0 && delta {
+    /// The last scattering turns out to have been where nothing is gathered, if `caustic`.
+    fn bend(&mut self, caustic: bool) {
+        if caustic {
             self.bent.extend(self.met.last().copied());
         }
     }
@@ -82,9 +84,9 @@ impl<'w> Glance<'w> {
 
 impl Visit for Glance<'_> {
     fn surface(&mut self, a: &Arrival, sampler: &mut Sampler) -> Step {
-        self.bend(a.scatterings, a.delta);
+        self.bend(a.caustic);
         self.met.push(a.at.p);
-        if !a.at.is_connectible() {
+        if !a.at.gathers(self.least) {
             return Step::On;
         }
         if self.spot.is_some() {
@@ -97,7 +99,7 @@ impl Visit for Glance<'_> {
         Step::On
     }
     fn escape(&mut self, e: &Escape) {
-        self.bend(e.scatterings, e.delta);
+        self.bend(e.caustic);
     }
 }
 

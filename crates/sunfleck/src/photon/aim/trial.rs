@@ -4,6 +4,7 @@ use super::{
     need::{Needs, Spot},
 };
 use crate::{
+    bsdf::Lobes,
     light::LightId,
     photon::Emission,
     sampler::{Domain, Sampler},
@@ -92,7 +93,7 @@ impl Volley {
         let drawn = mixture.sample(world, sampler.next_1d(), sampler.next_2d(), sampler.next_2d())?;
         let start = Emission::new(world, drawn.light, drawn.prob, drawn.le)?.start;
         let start = Start { beta: start.beta / self.paths as f32, ..start };
-        let mut land = Land { direct: self.direct, first: None, landings: Vec::new() };
+        let mut land = Land { direct: self.direct, least: self.limits.gathers, first: None, landings: Vec::new() };
         walk(world, &start, &limits, &mut sampler, &mut land);
         let line = Line { p: start.ray.o, d: start.ray.d };
         let light = drawn.light;
@@ -106,6 +107,7 @@ impl Volley {
 /// Notes where a light path lands.
 struct Land {
     direct: bool,
+    least: Lobes,
     first: Option<Vec3>,
     landings: Vec<Landing>,
 }
@@ -113,7 +115,7 @@ struct Land {
 impl Visit for Land {
     fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
         self.first.get_or_insert(a.at.p);
-        if a.at.gathers && (self.direct || a.scatterings > 0) {
+        if a.at.widest >= self.least && (self.direct || a.scatterings > 0) {
             self.landings.push(Landing { p: a.at.p, wi: a.at.wo, flux: a.beta.mean() });
         }
         Step::On

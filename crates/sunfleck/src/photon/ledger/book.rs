@@ -138,7 +138,7 @@ impl Visit for Clerk<'_> {
         self.arrive(a.departed);
         let flux = watts(a.beta);
         self.account().absorbed.watts += watts(a.departed) - flux;
-        if self.tracer.audit.keep.keeps(a) && a.at.gathers {
+        if self.tracer.audit.keep.keeps(a) && a.at.widest >= self.limits.gathers {
             self.account().stored.add(flux);
             self.page.positions.push(a.at.p);
             self.page.photons.push(Kept { light: self.light, path: self.path, wi: a.at.wo, flux });

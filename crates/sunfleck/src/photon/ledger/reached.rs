@@ -4,6 +4,7 @@ use super::{
     book::{Kept, Page},
 };
 use crate::{
+    bsdf::Lobes,
     camera::Project,
     film::FilmSpec,
     photon::RadiusMap,
@@ -58,9 +59,9 @@ fn look(audit: &Audit, world: &World, map: &RadiusMap<Found>, index: u64, marked
     let raster = sampler.next_2d();
     let camera = world.camera().ray(raster, sampler.next_2d());
     let start = Start::from_camera(world, camera.ray);
-    let mut first = First(None);
+    let mut first = First { least: audit.limits.gathers, at: None };
     walk(world, &start, &audit.limits, &mut sampler, &mut first);
-    let Some(at) = first.0 else { return };
+    let Some(at) = first.at else { return };
     map.within(at.p, audit.radii.at(raster), |photon, _| {
         let mark = &mut marked[photon.index as usize];
         // Photons from behind are near, but lend nothing.
@@ -68,15 +69,18 @@ fn look(audit: &Audit, world: &World, map: &RadiusMap<Found>, index: u64, marked
     });
 }
 
-/// The first connectible surface, after mirrors and glass only.
-struct First(Option<Interaction>);
+/// The first surface that gathers.
+struct First {
+    least: Lobes,
+    at: Option<Interaction>,
+}
 
 impl Visit for First {
     fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
-        if !a.at.is_connectible() {
-            return Step::OnIfDelta;
+        if !a.at.gathers(self.least) {
+            return Step::On;
         }
-        self.0 = Some(*a.at);
+        self.at = Some(*a.at);
         Step::Stop
     }
 }

@@ -12,6 +12,7 @@ use super::{
     weights::Between,
 };
 use crate::{
+    bsdf::Lobes,
     camera::Project,
     film::{FilmSpec, Filter},
     integrator::{bdpt, unified, vcm},
@@ -25,7 +26,7 @@ use crate::{
     walk::{Arrival, Limits},
 };
 use glam::Vec3;
-use paths::{End, Path};
+use paths::{End, Path, Vertex};
 
 const SPEC: FilmSpec = FilmSpec { width: 24, height: 16, filter: Filter::Box };
 
@@ -78,20 +79,31 @@ impl Setting<'_> {
     /// The light's subpath: its vertices as they would be kept, that nearest to the camera first.
     fn light_side(&self, path: &Path) -> LightSide {
         let mut track = Track::new();
-        let mut delta = true;
+        let mut caustic = false;
         let mut among = Vertices::default();
         for (i, v) in path.vertices.iter().enumerate().rev() {
             let at = Interaction { wo: v.wi, distance: path.leg_after(i), ..v.at };
             let scatterings = (path.vertices.len() - 1 - i) as u32;
             let sums = if scatterings == 0 { self.reach(path, &at) } else { track.after(&self.rule, Leg::to(&at)) };
             track.sums = sums;
-            let merges = self.rule.merges(scatterings, delta);
+            let merges = self.rule.merges(&at, scatterings, caustic);
             track.depart_from_light(&self.rule, &at, &scattered(&at, v.at.wo, v.delta), merges);
-            delta = v.delta;
-            let (beta, pdf, all_delta, dispersed, travelled) = (Spectrum::ONE, 1.0, false, false, 0.0);
+            caustic = v.delta || !at.gathers(self.rule.least);
+            let (beta, pdf, delta, all_delta, dispersed, travelled) = (Spectrum::ONE, 1.0, v.delta, false, false, 0.0);
             let (departed, inside) = (beta, &Inside::NOTHING);
-            let arrival =
-                Arrival { at: &at, beta, departed, scatterings, pdf, delta, all_delta, dispersed, travelled, inside };
+            let arrival = Arrival {
+                at: &at,
+                beta,
+                departed,
+                scatterings,
+                pdf,
+                delta,
+                caustic,
+                all_delta,
+                dispersed,
+                travelled,
+                inside,
+            };
             among.push(self.world, &arrival, &sums, merges);
         }
         among.end_path();
@@ -112,7 +124,11 @@ impl Setting<'_> {
 
     /// Whether camera paths come as far as vertex `i`: those that gather at their first vertex alone end there.
     fn comes_to(&self, path: &Path, i: usize) -> bool {
-        !self.rule.on.merge.at_first_only() || path.vertices[..i].iter().all(|v| v.delta)
+        !self.rule.on.merge.at_first_only() || path.vertices[..i].iter().all(|v| self.is_passed(v))
+    }
+    /// Whether nothing is gathered at a vertex.
+    fn is_passed(&self, v: &Vertex) -> bool {
+        v.delta || !v.at.gathers(self.rule.least)
     }
 
     /// Every sampler that finds the path, with its weight.
@@ -133,7 +149,7 @@ impl Setting<'_> {
         if !self.comes_to(path, last) {
             return all;
         }
-        if on.hit && (v.delta || on.nee || !on.merge.at_first_only()) {
+        if on.hit && (self.is_passed(v) || on.nee || !on.merge.at_first_only()) {
             let leg = LastLeg::new(v.at.p, v.at.pdf(v.wi), v.delta);
             match &path.end {
                 End::Surface(at) => all.push(("hit".to_owned(), joins.hit(at_light, leg, at))),
@@ -147,7 +163,7 @@ impl Setting<'_> {
         }
         if on.nee && !v.delta {
             let d = self.direct(path, &v.at, v.wi);
-            all.push(("nee".to_owned(), joins.nee(&self.rule.rough(&camera[last]), &v.at, &d)));
+            all.push(("nee".to_owned(), joins.nee(&self.rule.rough(&camera[last], &v.at), &v.at, &d)));
         }
         all
     }
@@ -183,7 +199,7 @@ impl Setting<'_> {
             let (v, next) = (&path.vertices[i], &path.vertices[i + 1]);
             (self.rule.on.connect && !v.delta && !next.delta).then(|| {
                 let d2 = path.leg_after(i).powi(2);
-                let sums = self.rule.rough(&camera[i]);
+                let sums = self.rule.rough(&camera[i], &v.at);
                 let end = light.among.end(self.world, &light.kept[i + 1]);
                 (format!("connection {i}"), joins.connect(&sums, &v.at, &end, v.wi, d2))
             })
@@ -194,16 +210,14 @@ impl Setting<'_> {
         let (rule, joins) = (&self.rule, self.joins(path));
         let merge = |i: usize| {
             let (v, photon) = (&path.vertices[i], &light[i]);
-            // What a light sends out counts as from a delta lobe.
-            let delta = path.vertices.get(i + 1).is_none_or(|v| v.delta);
-            let caustic = delta && photon.scatterings() > 0;
-            let kept = rule.on.merge.takes(photon.scatterings(), delta) && rule.gathers(caustic);
-            (kept && !v.delta && camera[i].shared > 0.0 && self.comes_to(path, i)).then(|| {
+            let caustic = path.vertices.get(i + 1).is_some_and(|v| self.is_passed(v));
+            let kept = rule.on.merge.takes(photon.scatterings(), caustic) && rule.gathers(caustic);
+            (kept && !self.is_passed(v) && camera[i].shared > 0.0 && self.comes_to(path, i)).then(|| {
                 let at = Between { forward: v.at.pdf(v.wi), back: v.at.pdf_back(v.wi) };
                 let weight = if rule.on.merge.at_first_only() {
                     1.0
                 } else {
-                    rule.merge_weight(&rule.rough(&camera[i]), &photon.sums, photon.scatterings(), at, joins.eta)
+                    rule.merge_weight(&rule.rough(&camera[i], &v.at), &photon.sums, photon.scatterings(), at, joins.eta)
                 };
                 (format!("merging {i}"), weight)
             })
@@ -257,10 +271,14 @@ fn check(name: &str, lights: scenes::Lights) {
     }
 }
 
+/// What weights compare, and the least lobes that gather.
+const RULES: [(Heuristic, Lobes); 3] =
+    [(Heuristic::Balance, Lobes::Narrow), (Heuristic::Balance, Lobes::Wide), (Heuristic::Power, Lobes::Wide)];
+
 fn check_all(name: &str, world: &World, radii: &Radii, source: &Source, paths: &[Path]) {
     for on in samplers() {
-        for heuristic in Heuristic::ALL {
-            let rule = Rule { on, heuristic, paths: 700.0, same_place: 0.02 };
+        for (heuristic, least) in RULES {
+            let rule = Rule { on, heuristic, least, paths: 700.0, same_place: 0.02 };
             let setting = Setting { world, rule, radii, source };
             let (mut shared, mut most) = (0, 0);
             for path in paths {

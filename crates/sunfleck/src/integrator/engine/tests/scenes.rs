@@ -114,7 +114,7 @@ fn balls(b: &mut SceneBuilder) {
     let mirror = b.material(MirrorMaterial { reflect: white });
     let clear = || DielectricMaterial { eta: 1.5.into(), reflectance: white, transmittance: white };
     let glass = b.material(clear());
-    let frosted = b.material(RoughDielectricMaterial { glass: clear(), alpha: 0.3.into() });
+    let frosted = b.material(RoughDielectricMaterial { glass: clear(), alpha: 0.09.into() });
     let metal = ConductorMaterial { eta, k, reflectance: white };
     let gold = b.material(RoughConductorMaterial { metal, alpha: 0.2.into() });
     let paint = b.material(PhongMaterial { diffuse: grey, specular: grey, exponent: 15.0 });
