@@ -3,7 +3,7 @@
 //! ```text
 //! pip install embreex
 //! cargo bench -p accel --bench embree -- [--embree FILE] [--scene ball|clutter] [--reps N] [--quality high] [--level N]
-//!     [--side N]
+//!     [--side N] [--only-builds]
 //! ```
 //!
 //! Without `--embree` the folder of the Python package `embreex` is searched, and if there is no Embree the program
@@ -29,15 +29,25 @@ struct Options {
     quality: Quality,
     level: u32,
     side: u32,
+    only_builds: bool,
 }
 
 fn options() -> Options {
-    let mut options = Options { embree: None, scene: None, reps: 3, quality: Quality::Default, level: 8, side: 1024 };
+    let mut options = Options {
+        embree: None,
+        scene: None,
+        reps: 3,
+        quality: Quality::Default,
+        level: 8,
+        side: 1024,
+        only_builds: false,
+    };
     let mut args = std::env::args().skip(1);
     while let Some(arg) = args.next() {
         let mut value = || args.next().unwrap_or_else(|| panic!("{arg} wants a value"));
         match arg.as_str() {
             "--bench" => {}
+            "--only-builds" => options.only_builds = true,
             "--embree" => options.embree = Some(value().into()),
             "--scene" => options.scene = Some(value()),
             "--reps" => options.reps = value().parse().expect("--reps wants a number"),
@@ -90,7 +100,7 @@ fn compare(name: &str, mesh: &Mesh, library: &std::path::Path, options: &Options
     println!("\n| build | threads | seconds | CPU seconds | MiB |\n|---|---|---|---|---|");
     for threads in [1, 2] {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().expect("a thread pool");
-        for _ in 0..options.reps.min(3) {
+        for _ in 0..options.reps {
             let (embree, time) =
                 timed(|| ffi::Scene::build(library, &positions, &mesh.indices, quality, threads).expect("Embree"));
             println!("| Embree | {threads} | {time} | {:.1} |", embree.bytes as f64 / 1_048_576.0);
@@ -100,6 +110,9 @@ fn compare(name: &str, mesh: &Mesh, library: &std::path::Path, options: &Options
         }
     }
     let (embree, own) = kept.expect("at least one repetition");
+    if options.only_builds {
+        return;
+    }
     let sets = scenes::ray_sets(mesh, &own, options.side);
     for threads in [1, 2] {
         table(&embree, &own, &sets, threads, options.reps);

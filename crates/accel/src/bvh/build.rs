@@ -1,13 +1,17 @@
-//! The binary hierarchy: split ranges of references until each holds one.
+//! The binary hierarchy: split ranges of references until each fits a block.
 
 use super::{
     Geometry, Quality,
     binning::ObjectSplit,
-    collapse::{Forest, Plan, Size},
-    refs::{Bounds, Owner, Ref},
+    collapse::{Forest, Plan},
+    few,
+    refs::{Bounds, CHUNK, Owner, Ref},
+    simd::SimdLevel,
     spatial::SpatialSplit,
+    tree::{Binary, Content, NO_TRIANGLE, Words},
+    triangle::LANES,
 };
-use crate::memory::large_vec;
+use rayon::prelude::*;
 
 /// Below this depth ranges are halved by count, so that no input makes a deep tree.
 const FAIR_DEPTH: usize = 40;
@@ -16,23 +20,11 @@ pub(super) const MAX_DEPTH: usize = FAIR_DEPTH + 29;
 /// Ranges longer than this are built in parallel.
 const PARALLEL: usize = 4096;
 
-/// A node of the binary hierarchy, stored before its descendants; the left child follows directly.
-#[derive(Clone, Copy)]
-pub(super) struct Binary {
-    /// The box; of a primitive also its owner, else the distance from this node to its right child.
-    pub(super) entry: Ref,
-    /// How to make it wide.
-    pub(super) plan: Plan,
-    /// What it takes as one root.
-    pub(super) size: Size,
-    /// What a ray that enters the box is expected to spend below, in visits of nodes.
-    pub(super) cost: f32,
-}
-
 /// A range of references with its boxes.
 struct Range<'a> {
     refs: &'a mut [Ref],
     side: Side,
+    surfaces: Surfaces,
     depth: usize,
     /// How many references may be added by cutting.
     budget: usize,
@@ -48,6 +40,9 @@ impl Range<'_> {
 /// What is the same for all ranges.
 struct Builder<'a> {
     geometries: &'a [Geometry<'a>],
+    /// The number of each geometry's first triangle.
+    firsts: &'a [u32],
+    level: SimdLevel,
     /// Surface beyond which a reference is not cut. Walls stay whole, near the root, where a ray that asks for any hit
     /// finds them at once.
     largest: f32,
@@ -56,19 +51,27 @@ struct Builder<'a> {
     crowd: f32,
 }
 
-/// The binary hierarchy over `refs`, which are reordered; empty if there are none.
-pub(super) fn build(refs: &mut [Ref], geometries: &[Geometry], quality: Quality) -> Vec<Binary> {
+/// A subtree that has been built.
+struct Built {
+    forest: Forest,
+    /// The nodes it took.
+    nodes: usize,
+}
+
+/// The binary hierarchy over `refs`, which are reordered; empty if there are none. The root comes first. `firsts` are the first
+/// numbers of the geometries' triangles.
+pub(super) fn build(refs: &mut [Ref], geometries: &[Geometry], firsts: &[u32], quality: Quality) -> Vec<Words> {
     if refs.is_empty() {
         return Vec::new();
     }
-    let side = Side::measure(refs);
+    let side = refs.par_chunks(CHUNK).map(Side::measure).reduce(|| Side::EMPTY, Side::union);
     let (extra, crowd) = quality.spatial();
-    let builder = Builder { geometries, largest: side.bounds.half_area() * 0.02, crowd };
+    let largest = side.bounds.half_area() * 0.02;
+    let builder = Builder { geometries, firsts, level: SimdLevel::detect(), largest, crowd };
     let budget = (refs.len() as f32 * extra) as usize;
-    let mut range = Range { refs, side, depth: 0, budget };
-    let blank = Binary { entry: range.refs[0], plan: Plan::PRIMITIVE, size: Size::default(), cost: 0.0 };
-    let mut nodes = large_vec(range.room());
-    nodes.resize(range.room(), blank);
+    let surfaces = if budget > 0 { Surfaces::measure(refs) } else { Surfaces::default() };
+    let mut range = Range { refs, side, surfaces, depth: 0, budget };
+    let mut nodes = vec![[0; 12]; range.room()];
     builder.subdivide(&mut range, &mut nodes);
     nodes
 }
@@ -79,56 +82,71 @@ struct Side {
     bounds: Bounds,
     /// The box around the doubled centres.
     centres: Bounds,
-    /// Sum of the references' half surfaces, by which the budget is shared.
-    weight: f32,
-    /// The greatest of them.
-    largest: f32,
 }
 
 impl Side {
-    const EMPTY: Self = Self { bounds: Bounds::EMPTY, centres: Bounds::EMPTY, weight: 0.0, largest: 0.0 };
-
-    #[inline(always)]
-    fn add(&mut self, reference: &Ref) {
-        let bounds = reference.bounds();
-        self.bounds.grow(&bounds);
-        self.centres.grow_point(reference.centre2());
-        let half_area = bounds.half_area();
-        self.weight += half_area;
-        self.largest = self.largest.max(half_area);
-    }
+    const EMPTY: Self = Self { bounds: Bounds::EMPTY, centres: Bounds::EMPTY };
 
     fn measure(refs: &[Ref]) -> Self {
-        refs.iter().fold(Self::EMPTY, |mut side, reference| {
-            side.add(reference);
-            side
+        let mut side = Self::EMPTY;
+        for reference in refs {
+            side.bounds.grow(&reference.bounds());
+            side.centres.grow_point(reference.centre2());
+        }
+        side
+    }
+
+    fn union(self, other: Self) -> Self {
+        Self { bounds: self.bounds.union(&other.bounds), centres: self.centres.union(&other.centres) }
+    }
+}
+
+/// The half surfaces of references; only taken where references may be cut.
+#[derive(Clone, Copy, Default)]
+struct Surfaces {
+    /// By this the budget is shared.
+    sum: f32,
+    largest: f32,
+}
+
+impl Surfaces {
+    fn measure(refs: &[Ref]) -> Self {
+        refs.iter().map(|reference| reference.bounds().half_area()).fold(Self::default(), |all, half_area| Self {
+            sum: all.sum + half_area,
+            largest: all.largest.max(half_area),
         })
     }
 }
 
 impl Builder<'_> {
-    fn subdivide(&self, range: &mut Range, nodes: &mut [Binary]) -> Forest {
+    /// Builds the subtree over a range and writes it to the first of `nodes`.
+    fn subdivide(&self, range: &mut Range, nodes: &mut [Words]) -> Built {
         let bounds = range.side.bounds;
-        if let &mut [reference] = &mut *range.refs {
-            let is_triangle = matches!(reference.owner(), Owner::Triangle { .. });
-            let forest = Forest::primitive(bounds.half_area(), is_triangle);
-            nodes[0] = Binary {
-                entry: reference,
-                plan: Plan::PRIMITIVE,
-                size: forest.size(),
-                cost: forest.cost(bounds.half_area()),
-            };
-            return forest;
+        if let Some(content) = self.content(range.refs) {
+            if let Some(middle) = few::divide(range.refs, self.level) {
+                let (left, right) = range.refs.split_at_mut(middle);
+                let sides = [Side::measure(left), Side::measure(right)];
+                return self.join(children(left, right, sides, range.depth, 0), &bounds, nodes);
+            }
+            let forest =
+                Forest::primitive(bounds.half_area(), range.refs.len() as u32, matches!(content, Content::Row(_)));
+            let cost = forest.cost(bounds.half_area());
+            nodes[0] = Binary::new(&bounds, content, Plan::PRIMITIVE, cost).pack();
+            return Built { forest, nodes: 1 };
         }
         let splittable = range.refs.len() > 2 && range.depth < FAIR_DEPTH;
-        let object = if splittable { ObjectSplit::find(range.refs, &range.side.centres) } else { None };
+        let object = if splittable { ObjectSplit::find(range.refs, &range.side.centres, self.level) } else { None };
         if let Some((mut left, mut right)) = self.spatial(range, object.as_ref()) {
             let budget = range.budget + range.refs.len() - left.len() - right.len();
             let sides = [Side::measure(&left), Side::measure(&right)];
             return self.join(children(&mut left, &mut right, sides, range.depth, budget), &bounds, nodes);
         }
         let (middle, sides) = match object {
-            Some(split) => partition(range.refs, &split),
+            Some(split) => {
+                let (middle, [left, right]) = split.partition(range.refs, self.level);
+                let side = |bounds, centres| Side { bounds, centres };
+                (middle, [side(split.sides[0], left), side(split.sides[1], right)])
+            }
             None => (0, [Side::EMPTY; 2]),
         };
         let halve = middle == 0 || middle == range.refs.len();
@@ -138,11 +156,28 @@ impl Builder<'_> {
         self.join(children(left, right, sides, range.depth, range.budget), &bounds, nodes)
     }
 
+    /// What a range becomes that is not split: so few triangles that they fit a block, or anything else alone.
+    fn content(&self, refs: &[Ref]) -> Option<Content> {
+        let mut numbers = [NO_TRIANGLE; LANES];
+        if refs.len() > LANES {
+            return None;
+        }
+        for (reference, number) in refs.iter().zip(&mut numbers) {
+            *number = match reference.owner() {
+                Owner::Triangle { geometry, primitive } => self.firsts[geometry as usize] + primitive,
+                Owner::Sphere(index) if refs.len() == 1 => return Some(Content::Sphere(index)),
+                Owner::Instance(index) if refs.len() == 1 => return Some(Content::Instance(index)),
+                Owner::Sphere(_) | Owner::Instance(_) => return None,
+            };
+        }
+        Some(Content::Row(numbers))
+    }
+
     /// Both sides of a spatial split, if one is worth looking for and cheaper than the object split.
     fn spatial(&self, range: &Range, object: Option<&ObjectSplit>) -> Option<(Vec<Ref>, Vec<Ref>)> {
         let object = object?;
-        let Side { bounds, weight, largest, .. } = range.side;
-        if range.budget == 0 || largest > self.largest || weight < self.crowd * bounds.half_area() {
+        let (bounds, Surfaces { sum, largest }) = (range.side.bounds, range.surfaces);
+        if range.budget == 0 || largest > self.largest || sum < self.crowd * bounds.half_area() {
             return None;
         }
         let split = SpatialSplit::find(range.refs, &bounds, self.geometries, range.budget)?;
@@ -155,23 +190,24 @@ impl Builder<'_> {
     }
 
     /// Builds both sides and writes the node above them.
-    fn join(&self, [mut left, mut right]: [Range; 2], bounds: &Bounds, nodes: &mut [Binary]) -> Forest {
+    fn join(&self, [mut left, mut right]: [Range; 2], bounds: &Bounds, nodes: &mut [Words]) -> Built {
         let (node, below) = nodes.split_first_mut().expect("a range has a node");
-        let (left_nodes, right_nodes) = below.split_at_mut(left.room());
-        let right_at = left_nodes.len() as u32 + 1;
-        let (left, right) = if left.refs.len() + right.refs.len() > PARALLEL {
-            rayon::join(|| self.subdivide(&mut left, left_nodes), || self.subdivide(&mut right, right_nodes))
+        let (right_at, left, right) = if left.refs.len() + right.refs.len() > PARALLEL {
+            let (left_nodes, right_nodes) = below.split_at_mut(left.room());
+            let right_at = left_nodes.len();
+            let left = || self.subdivide(&mut left, left_nodes);
+            let (left, right) = rayon::join(left, || self.subdivide(&mut right, right_nodes));
+            (right_at, left, right)
         } else {
-            (self.subdivide(&mut left, left_nodes), self.subdivide(&mut right, right_nodes))
+            let left = self.subdivide(&mut left, below);
+            let right = self.subdivide(&mut right, &mut below[left.nodes..]);
+            (left.nodes, left, right)
         };
-        let (forest, plan) = Forest::join(&left, &right, bounds.half_area());
-        *node = Binary {
-            entry: Ref::numbered(bounds, right_at),
-            plan,
-            size: forest.size(),
-            cost: forest.cost(bounds.half_area()),
-        };
-        forest
+        let half_area = bounds.half_area();
+        let (forest, plan) = Forest::join(&left.forest, &right.forest, half_area);
+        let content = Content::Pair { right: right_at as u32 + 1, size: forest.size() };
+        *node = Binary::new(bounds, content, plan, forest.cost(half_area)).pack();
+        Built { forest, nodes: 1 + right_at + right.nodes }
     }
 }
 
@@ -183,26 +219,12 @@ fn children<'a>(
     depth: usize,
     budget: usize,
 ) -> [Range<'a>; 2] {
-    let share = f64::from(sides[0].weight) / (f64::from(sides[0].weight) + f64::from(sides[1].weight));
-    let left_budget = ((budget as f64 * share) as usize).min(budget);
-    let range = |refs, side, budget| Range { refs, side, depth: depth + 1, budget };
-    [range(left, sides[0], left_budget), range(right, sides[1], budget - left_budget)]
-}
-
-/// Moves the left side to the front; returns its length and what is known about both sides.
-fn partition(refs: &mut [Ref], split: &ObjectSplit) -> (usize, [Side; 2]) {
-    let (mut left, mut right) = (Side::EMPTY, Side::EMPTY);
-    let (mut i, mut j) = (0, refs.len());
-    while i < j {
-        let reference = refs[i];
-        if split.is_left(&reference) {
-            left.add(&reference);
-            i += 1;
-        } else {
-            right.add(&reference);
-            j -= 1;
-            refs.swap(i, j);
-        }
+    let (mut surfaces, mut left_budget) = ([Surfaces::default(); 2], 0);
+    if budget > 0 {
+        surfaces = [Surfaces::measure(left), Surfaces::measure(right)];
+        let [left, right] = surfaces.map(|surfaces| f64::from(surfaces.sum));
+        left_budget = ((budget as f64 * (left / (left + right))) as usize).min(budget);
     }
-    (i, [left, right])
+    let range = |refs, side, surfaces, budget| Range { refs, side, surfaces, depth: depth + 1, budget };
+    [range(left, sides[0], surfaces[0], left_budget), range(right, sides[1], surfaces[1], budget - left_budget)]
 }

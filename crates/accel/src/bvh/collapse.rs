@@ -14,7 +14,7 @@ use super::{
 const NODE_COST: f32 = 1.0;
 const BLOCK_COST: f32 = 0.4;
 /// Most triangles that collapse into one leaf.
-const MAX_LEAF: u32 = (LANES * Child::MAX_BLOCKS) as u32;
+pub(super) const MAX_LEAF: u32 = (LANES * Child::MAX_BLOCKS) as u32;
 
 /// The optimal choices for one binary subtree: for a forest of i roots, how many go to the left child (0: as with i - 1
 /// roots), and whether the subtree as one root is a leaf.
@@ -23,8 +23,8 @@ pub(super) struct Plan(u32);
 
 impl Plan {
     const LEAF: u32 = 1 << 31;
-    /// The plan of a single primitive.
-    pub(super) const PRIMITIVE: Self = Self(Self::LEAF | 1);
+    /// The plan of what is not divided further.
+    pub(super) const PRIMITIVE: Self = Self(Self::LEAF);
 
     /// Roots given to the left child when the subtree is represented by `i` roots, 2 to 8.
     pub(super) const fn left_roots(self, i: usize) -> usize {
@@ -33,6 +33,16 @@ impl Plan {
 
     pub(super) const fn is_leaf(self) -> bool {
         self.0 & Self::LEAF != 0
+    }
+
+    /// The plan with a number below 64 in the bits that it leaves free.
+    pub(super) const fn with_kind(self, kind: u32) -> u32 {
+        self.0 | kind
+    }
+
+    /// The parts of [`Plan::with_kind`].
+    pub(super) const fn and_kind(bits: u32) -> (Self, u32) {
+        (Self(bits & !63), bits & 63)
     }
 }
 
@@ -79,9 +89,10 @@ pub(super) struct Forest {
 }
 
 impl Forest {
-    pub(super) fn primitive(half_area: f32, is_triangle: bool) -> Self {
-        let size = Size { nodes: 0, blocks: u32::from(is_triangle) };
-        Self { best: [Choice { cost: half_area * BLOCK_COST, size }; 7], count: 1, blocks: is_triangle }
+    /// Triangles that fit one block, or something else alone.
+    pub(super) fn primitive(half_area: f32, count: u32, triangles: bool) -> Self {
+        let size = Size { nodes: 0, blocks: u32::from(triangles) };
+        Self { best: [Choice { cost: half_area * BLOCK_COST, size }; 7], count, blocks: triangles }
     }
 
     /// Expected cost of the subtree as one root for a ray that meets its box, which has so much surface.

@@ -2,15 +2,14 @@
 
 use super::{
     Geometry,
-    build::Binary,
     cells::{Cell, Places, Stored},
-    collapse::{Plan, Size},
+    collapse::{MAX_LEAF, Size},
+    names::Names,
     node::{Child, Node, WIDTH},
-    refs::Owner,
+    tree::{Binary, Content, NO_TRIANGLE, Words},
     triangle::{Block, LANES},
 };
 use crate::memory::large_vec;
-use glam::Vec4Swizzles;
 use rayon::prelude::*;
 
 /// Subtrees with more wide nodes than this are written in parallel.
@@ -32,17 +31,16 @@ struct Job<'a> {
     cells: Places<'a>,
 }
 
-/// The wide hierarchy of a binary one, which may be empty; its root lies at cell 0. `firsts` are the first numbers of the
-/// geometries.
-pub(super) fn emit(binary: &[Binary], geometries: &[Geometry], firsts: &[u32]) -> Vec<Cell> {
-    let (root_is_leaf, size) = match binary.first() {
-        Some(root) => (root.plan.is_leaf(), root.size),
+/// The wide hierarchy of a binary one, which may be empty; its root lies at cell 0.
+pub(super) fn emit(tree: &[Words], geometries: &[Geometry], names: &Names) -> Vec<Cell> {
+    let (root_is_leaf, size) = match tree.first().map(Binary::unpack) {
+        Some(root) => (root.plan.is_leaf(), root.size()),
         None => (true, Size::default()),
     };
     let count = (size.cells() + if root_is_leaf { Node::CELLS } else { 0 }) as usize;
     assert!(count < Child::MAX_INDEX, "a hierarchy takes at most 8 GiB");
     let mut table = large_vec(count);
-    let emitter = Emitter { binary, geometries, firsts };
+    let emitter = Emitter { tree, geometries, names };
     let cells = Places::new(&mut table.spare_capacity_mut()[..count]);
     if root_is_leaf {
         emitter.single_leaf(cells);
@@ -77,19 +75,24 @@ fn kid<'a>(top: &'a mut [Top], parent: Option<(usize, usize)>) -> Option<&'a mut
 }
 
 struct Emitter<'a> {
-    binary: &'a [Binary],
+    tree: &'a [Words],
     geometries: &'a [Geometry<'a>],
-    firsts: &'a [u32],
+    names: &'a Names,
 }
 
 impl Emitter<'_> {
+    #[inline(always)]
+    fn get(&self, at: usize) -> Binary {
+        Binary::unpack(&self.tree[at])
+    }
+
     /// A root node with at most one child, which is a leaf.
     fn single_leaf(&self, mut cells: Places) {
         let mut node = Node::EMPTY;
         let mut own = cells.take(Node::CELLS);
-        if let Some(leaf) = self.binary.first() {
-            let bounds = leaf.entry.bounds();
-            node.set(0, bounds.lo.xyz(), bounds.hi.xyz(), self.leaf(0, cells).0);
+        if !self.tree.is_empty() {
+            let leaf = self.get(0);
+            node.set(0, leaf.lo, leaf.hi, self.leaf(0, cells).0);
         }
         own.put(node);
     }
@@ -128,7 +131,7 @@ impl Emitter<'_> {
 
     /// Writes the subtrees below a top.
     fn below(&self, top: &mut [Top], open: Vec<Open>, job: &mut Job) {
-        let job_of = |open: &Open| Job { at: open.at, cells: job.cells.take(self.binary[open.at].size.cells()) };
+        let job_of = |open: &Open| Job { at: open.at, cells: job.cells.take(self.get(open.at).size().cells()) };
         let jobs: Vec<_> = open.iter().map(job_of).collect();
         assert!(job.cells.is_empty(), "sizes are exact");
         for (job, open) in jobs.iter().zip(&open) {
@@ -136,7 +139,7 @@ impl Emitter<'_> {
                 kid.child = Child::inner(job.cells.first());
             }
         }
-        let surfaces: Vec<f32> = if self.binary[job.at].size.nodes > PARALLEL {
+        let surfaces: Vec<f32> = if self.get(job.at).size().nodes > PARALLEL {
             jobs.into_par_iter().map(|job| self.subtree(job)).collect()
         } else {
             jobs.into_iter().map(|job| self.subtree(job)).collect()
@@ -151,11 +154,14 @@ impl Emitter<'_> {
     /// The children of the wide node of `at`; leaves are written.
     fn kids(&self, at: usize, cells: &mut Places) -> Vec<Kid> {
         let mut roots = Vec::with_capacity(WIDTH);
-        self.split(at, self.binary[at].plan.left_roots(WIDTH), WIDTH, &mut roots);
+        self.split(at, self.get(at).plan.left_roots(WIDTH), WIDTH, &mut roots);
         let kid = |at: usize| {
-            let Binary { plan, size, .. } = self.binary[at];
-            let (child, surface) =
-                if plan.is_leaf() { self.leaf(at, cells.take(size.cells())) } else { (Child::inner(0), 0.0) };
+            let binary = self.get(at);
+            let (child, surface) = if binary.plan.is_leaf() {
+                self.leaf(at, cells.take(binary.size().cells()))
+            } else {
+                (Child::inner(0), 0.0)
+            };
             Kid { at, child, surface }
         };
         roots.into_iter().map(kid).collect()
@@ -166,27 +172,27 @@ impl Emitter<'_> {
     /// half of the box's surface goes into theirs.
     fn node(&self, mut kids: Vec<Kid>) -> Node {
         let worth = |kid: &Kid| {
-            let half_area = self.half_area(kid.at);
-            (1.0 - (-kid.surface / half_area).exp()) / self.binary[kid.at].cost.sqrt()
+            let binary = self.get(kid.at);
+            (1.0 - (-kid.surface / binary.half_area()).exp()) / binary.cost.sqrt()
         };
         kids.sort_by_cached_key(|kid| worth(kid).to_bits());
         let mut node = Node::EMPTY;
         for (slot, kid) in kids.into_iter().enumerate() {
-            let bounds = self.binary[kid.at].entry.bounds();
-            node.set(slot, bounds.lo.xyz(), bounds.hi.xyz(), kid.child);
+            let binary = self.get(kid.at);
+            node.set(slot, binary.lo, binary.hi, kid.child);
         }
         node
     }
 
     fn half_area(&self, at: usize) -> f32 {
-        self.binary[at].entry.bounds().half_area()
+        self.get(at).half_area()
     }
 
     /// The binary nodes that represent the children of `at` as `count` roots, `left` of them in the left child.
     fn split(&self, at: usize, left: usize, count: usize, out: &mut Vec<usize>) {
-        let right_at = at + self.binary[at].entry.number() as usize;
-        for (at, mut count) in [(at + 1, left), (right_at, count - left)] {
-            let plan = self.binary[at].plan;
+        let [left_at, right_at] = self.children(at);
+        for (at, mut count) in [(left_at, left), (right_at, count - left)] {
+            let plan = self.get(at).plan;
             while count > 1 && plan.left_roots(count) == 0 {
                 count -= 1;
             }
@@ -198,39 +204,60 @@ impl Emitter<'_> {
         }
     }
 
+    fn children(&self, at: usize) -> [usize; 2] {
+        let Content::Pair { right, .. } = self.get(at).content else { unreachable!("plans divide pairs only") };
+        [at + 1, at + right as usize]
+    }
+
     /// Writes the leaf for everything below `at`; also the surface inside.
     fn leaf(&self, at: usize, mut cells: Places) -> (Child, f32) {
-        let mut owners = Vec::with_capacity(LANES * Child::MAX_BLOCKS);
-        self.owners(at, &mut owners);
-        match owners[0] {
-            Owner::Sphere(index) => return (Child::sphere(index), self.half_area(at)),
-            Owner::Instance(index) => return (Child::instance(index), self.half_area(at)),
-            Owner::Triangle { .. } => {}
+        match self.get(at).content {
+            Content::Sphere(index) => return (Child::sphere(index), self.half_area(at)),
+            Content::Instance(index) => return (Child::instance(index), self.half_area(at)),
+            Content::Pair { .. } | Content::Row(_) => {}
         }
+        let mut leaf = Gathered { numbers: [NO_TRIANGLE; MAX_LEAF as usize], count: 0 };
+        self.gather(at, &mut leaf);
         let (first, mut surface) = (cells.first(), 0.0);
-        let blocks = owners.chunks(LANES).map(|owners| cells.put(self.block(owners, &mut surface))).count();
+        let blocks = leaf.numbers[..leaf.count]
+            .chunks(LANES)
+            .map(|numbers| cells.put(self.block(numbers, &mut surface)))
+            .count();
         assert!(cells.is_empty(), "sizes are exact");
         (Child::blocks(first, blocks as u32), surface)
     }
 
-    fn block(&self, owners: &[Owner], surface: &mut f32) -> Block {
+    fn block(&self, numbers: &[u32], surface: &mut f32) -> Block {
         let mut block = Block::EMPTY;
-        for (lane, owner) in owners.iter().enumerate() {
-            let &Owner::Triangle { geometry, primitive } = owner else { unreachable!("only triangles share a leaf") };
+        for (lane, &number) in numbers.iter().enumerate() {
+            let (geometry, primitive) = self.names.of(number);
             let corners @ [a, b, c] = self.geometries[geometry as usize].corners(primitive);
             *surface += 0.5 * (b - a).cross(c - a).length();
-            block.set(lane, corners, self.firsts[geometry as usize] + primitive);
+            block.set(lane, corners, number);
         }
         block
     }
 
-    fn owners(&self, at: usize, out: &mut Vec<Owner>) {
-        let Binary { entry, plan, .. } = self.binary[at];
-        if plan == Plan::PRIMITIVE {
-            out.push(entry.owner());
-        } else {
-            self.owners(at + 1, out);
-            self.owners(at + entry.number() as usize, out);
+    /// Adds the triangles below `at`.
+    fn gather(&self, at: usize, leaf: &mut Gathered) {
+        match self.get(at).content {
+            Content::Pair { right, .. } => {
+                self.gather(at + 1, leaf);
+                self.gather(at + right as usize, leaf);
+            }
+            Content::Row(row) => {
+                for number in row.into_iter().filter(|&number| number != NO_TRIANGLE) {
+                    leaf.numbers[leaf.count] = number;
+                    leaf.count += 1;
+                }
+            }
+            Content::Sphere(_) | Content::Instance(_) => unreachable!("only triangles share a leaf"),
         }
     }
+}
+
+/// The triangles of a leaf.
+struct Gathered {
+    numbers: [u32; MAX_LEAF as usize],
+    count: usize,
 }

@@ -16,6 +16,7 @@ mod cells;
 mod clip;
 mod collapse;
 mod emit;
+mod few;
 mod instance;
 mod names;
 mod node;
@@ -28,6 +29,7 @@ mod spatial;
 mod sphere;
 mod stack;
 mod traverse;
+mod tree;
 mod triangle;
 
 pub use instance::Instance;
@@ -40,7 +42,7 @@ use glam::{Vec3, Vec4Swizzles};
 use instance::Placed;
 use names::Names;
 use node::Child;
-use refs::{Bounds, Ref};
+use refs::{Collected, Ref};
 use sphere::Sphere;
 use std::sync::Arc;
 
@@ -213,22 +215,21 @@ impl Counts {
 
 impl Part {
     /// The hierarchy over some geometry and over ready-made references (to instances).
-    fn build(geometries: &[Geometry], mut refs: Vec<Ref>, quality: Quality) -> Self {
-        let collected = refs::collect(geometries);
+    fn build(geometries: &[Geometry], instances: &[Ref], quality: Quality) -> Self {
+        let Collected { mut refs, spheres, dropped } = refs::collect(geometries, instances, quality.cuts());
         let counts = Counts {
-            triangles: collected.refs.len() - collected.spheres.len(),
-            spheres: collected.spheres.len(),
-            dropped_primitives: collected.dropped,
+            triangles: refs.len() - spheres.len() - instances.len(),
+            spheres: spheres.len(),
+            dropped_primitives: dropped,
             ..Counts::default()
         };
-        refs.extend(collected.refs);
         assert!(refs.len() < Child::MAX_INDEX, "a hierarchy holds at most 2^28 primitives");
-        let bounds = refs.iter().fold(Bounds::EMPTY, |all, r| all.union(&r.bounds()));
-        presplit::presplit(&mut refs, geometries, &bounds, quality.cuts());
+        let (bounds, surface) = refs::measure(&refs);
+        presplit::presplit(&mut refs, geometries, &bounds, surface, quality.cuts());
         let bounds = Aabb { min: bounds.lo.xyz(), max: bounds.hi.xyz() };
-        let binary = build::build(&mut refs, geometries, quality);
         let (names, firsts) = Names::new(geometries);
-        Self { cells: emit::emit(&binary, geometries, &firsts), names, spheres: collected.spheres, bounds, counts }
+        let tree = build::build(&mut refs, geometries, &firsts, quality);
+        Self { cells: emit::emit(&tree, geometries, &names), names, spheres, bounds, counts }
     }
 }
 

@@ -35,7 +35,7 @@ impl Objects {
     /// # Panics
     /// If an index of a mesh is out of range, or if there are more than 2^28 primitives.
     pub fn build(objects: &[&[Geometry]], quality: Quality) -> Self {
-        let parts: Vec<Part> = objects.par_iter().map(|object| Part::build(object, Vec::new(), quality)).collect();
+        let parts: Vec<Part> = objects.par_iter().map(|object| Part::build(object, &[], quality)).collect();
         let (mut tables, mut counts) = (Tables::default(), Counts::default());
         let mut enter = |part: Part| {
             counts.add(&part.counts);
@@ -70,7 +70,7 @@ impl Objects {
             }
         }
         counts.instances = placed.len();
-        let part = Part::build(world, refs, quality);
+        let part = Part::build(world, &refs, quality);
         counts.add(&part.counts);
         Bvh {
             bounds: part.bounds,

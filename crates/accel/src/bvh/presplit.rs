@@ -7,7 +7,7 @@
 use super::{
     Geometry,
     clip::cut,
-    refs::{Bounds, Owner, Ref},
+    refs::{Bounds, CHUNK, Owner, Ref},
 };
 use glam::Vec4;
 use rayon::prelude::*;
@@ -22,33 +22,35 @@ const MARGIN: f32 = 0.2;
 
 /// A reference that is to be cut.
 struct Candidate {
+    /// Where it lies in its chunk.
     index: usize,
     /// The cuts that would spend the same on each surface saved.
     cuts: f32,
 }
 
-/// Cuts references, which adds at most `share` times as many as there are.
-pub(super) fn presplit(refs: &mut Vec<Ref>, geometries: &[Geometry], bounds: &Bounds, share: f32) {
-    let mean = refs.iter().map(|r| f64::from(r.bounds().half_area())).sum::<f64>() / refs.len() as f64;
-    let unit = mean as f32 * WORTH_A_CUT;
+/// Cuts references, which have so much half surface together; this adds at most `share` times as many as there are.
+pub(super) fn presplit(refs: &mut Vec<Ref>, geometries: &[Geometry], bounds: &Bounds, surface: f64, share: f32) {
+    let unit = (surface / refs.len() as f64) as f32 * WORTH_A_CUT;
     let candidate = |(index, reference): (usize, &Ref)| {
         let waste = waste(reference, geometries, bounds.half_area() * LARGEST);
         // Among n parts of a long triangle the waste falls as 1/n, so that the next cut saves about waste/n².
         (waste > 2.0 * unit).then(|| Candidate { index, cuts: (waste / unit).sqrt() })
     };
-    let candidates: Vec<_> = refs.par_iter().enumerate().filter_map(candidate).collect();
+    let find = |chunk: &[Ref]| chunk.iter().enumerate().filter_map(candidate).collect();
+    let candidates: Vec<Vec<Candidate>> = refs.par_chunks(CHUNK).map(find).collect();
     let scale = affordable(&candidates, (refs.len() as f32 * share) as usize);
     let grid = Grid { scene: *bounds, geometries };
-    let divide = |candidate: &Candidate| {
+    let divide = |(chunk, candidates): (&mut [Ref], &Vec<Candidate>)| {
         let mut parts = Vec::new();
-        grid.divide(refs[candidate.index], (candidate.cuts * scale) as usize, &mut parts);
+        for candidate in candidates {
+            let reference = &mut chunk[candidate.index];
+            grid.divide(*reference, (candidate.cuts * scale) as usize, &mut parts);
+            *reference = parts.pop().unwrap_or(*reference);
+        }
         parts
     };
-    let parts: Vec<_> = candidates.par_iter().map(divide).collect();
-    for (candidate, parts) in candidates.iter().zip(parts) {
-        refs[candidate.index] = parts[0];
-        refs.extend_from_slice(&parts[1..]);
-    }
+    let parts: Vec<_> = refs.par_chunks_mut(CHUNK).zip(&candidates).map(divide).collect();
+    parts.iter().for_each(|parts| refs.extend_from_slice(parts));
 }
 
 /// How much more half surface the box of a triangle has than the best boxes around its parts would have: those of very
@@ -64,8 +66,11 @@ fn waste(reference: &Ref, geometries: &[Geometry], largest: f32) -> f32 {
 }
 
 /// The factor, at most 1, by which cuts must be multiplied so that they are at most `budget`.
-fn affordable(candidates: &[Candidate], budget: usize) -> f32 {
-    let count = |scale: f32| candidates.iter().map(|c| (c.cuts * scale) as usize).sum::<usize>();
+fn affordable(candidates: &[Vec<Candidate>], budget: usize) -> f32 {
+    let count = |scale: f32| {
+        let of_chunk = |chunk: &Vec<Candidate>| chunk.iter().map(|c| (c.cuts * scale) as usize).sum::<usize>();
+        candidates.par_iter().map(of_chunk).sum::<usize>()
+    };
     if count(1.0) <= budget {
         return 1.0;
     }
@@ -147,12 +152,12 @@ mod tests {
         let positions = mesh();
         let indices: Vec<[u32; 3]> = (0..400).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         let geometries = [Geometry::Triangles { positions: &positions, indices: &indices }];
-        let whole = refs::collect(&geometries).refs;
-        let bounds = whole.iter().fold(Bounds::EMPTY, |all, r| all.union(&r.bounds()));
+        let whole = refs::collect(&geometries, &[], 0.0).refs;
+        let (bounds, before) = refs::measure(&whole);
         let surface = |refs: &[Ref]| refs.iter().map(|r| r.bounds().half_area()).sum::<f32>();
         for share in [0.0, 0.1, 0.3] {
             let mut refs = whole.clone();
-            presplit(&mut refs, &geometries, &bounds, share);
+            presplit(&mut refs, &geometries, &bounds, before, share);
             let added = refs.len() - whole.len();
             assert!(added <= (400.0 * share) as usize && added >= (350.0 * share) as usize, "{added} added");
             assert!(surface(&refs) <= surface(&whole) * (1.0 - share), "share {share}");

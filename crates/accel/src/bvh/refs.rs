@@ -1,18 +1,20 @@
 //! What the builder sorts: references, a box and the name of the primitive inside.
 
 use super::{Geometry, sphere::Sphere};
+use crate::memory::large_vec;
 use glam::{BVec4A, Vec3, Vec4};
 use rayon::prelude::*;
 
 /// Coordinates beyond this count as infinite; products of three lengths must stay finite.
 const MAX_COORDINATE: f32 = 1e18;
+/// References that one thread looks at in turn.
+pub(super) const CHUNK: usize = 1 << 13;
 
-/// A primitive, or a part of one, with its box. The fourth lanes of the corners carry integers.
+/// A primitive, or a part of one, with its box: the lower corner, the primitive's bits, the upper corner negated, the
+/// owner's bits. So the smaller of each of two references' lanes makes the box around both.
 #[derive(Clone, Copy)]
-pub(super) struct Ref {
-    lo_and_primitive: Vec4,
-    hi_and_owner: Vec4,
-}
+#[repr(C, align(32))]
+pub(super) struct Ref(pub(super) [f32; 8]);
 
 /// Whom a reference belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,13 +27,13 @@ pub(super) enum Owner {
     Instance(u32),
 }
 
-/// Owners above these are no geometries.
+/// Owners from here on are no geometries.
 const SPHERE: u32 = u32::MAX - 1;
 const INSTANCE: u32 = u32::MAX;
 
 /// Clears the lane that carries an integer, whose bits may be a denormal number or NaN.
 #[inline(always)]
-pub(super) fn xyz(v: Vec4) -> Vec4 {
+fn xyz(v: Vec4) -> Vec4 {
     Vec4::select(BVec4A::new(true, true, true, false), v, Vec4::ZERO)
 }
 
@@ -42,12 +44,13 @@ impl Ref {
             Owner::Sphere(index) => (SPHERE, index),
             Owner::Instance(index) => (INSTANCE, index),
         };
-        Self { lo_and_primitive: lo.extend(f32::from_bits(primitive)), hi_and_owner: hi.extend(f32::from_bits(owner)) }
+        let (primitive, owner) = (f32::from_bits(primitive), f32::from_bits(owner));
+        Self([lo.x, lo.y, lo.z, primitive, -hi.x, -hi.y, -hi.z, owner])
     }
 
     pub(super) fn owner(&self) -> Owner {
-        let primitive = self.lo_and_primitive.w.to_bits();
-        match self.hi_and_owner.w.to_bits() {
+        let primitive = self.0[3].to_bits();
+        match self.0[7].to_bits() {
             SPHERE => Owner::Sphere(primitive),
             INSTANCE => Owner::Instance(primitive),
             geometry => Owner::Triangle { geometry, primitive },
@@ -56,31 +59,32 @@ impl Ref {
 
     /// The same owner with another box.
     pub(super) fn moved_to(&self, bounds: &Bounds) -> Self {
-        Self {
-            lo_and_primitive: bounds.lo.with_w(self.lo_and_primitive.w),
-            hi_and_owner: bounds.hi.with_w(self.hi_and_owner.w),
-        }
-    }
-
-    /// A box that carries a number instead of an owner.
-    pub(super) fn numbered(bounds: &Bounds, number: u32) -> Self {
-        Self { lo_and_primitive: bounds.lo, hi_and_owner: bounds.hi.with_w(f32::from_bits(number)) }
-    }
-
-    /// The number of a box made by [`Ref::numbered`].
-    pub(super) fn number(&self) -> u32 {
-        self.hi_and_owner.w.to_bits()
+        let (lo, hi) = (bounds.lo, -bounds.hi);
+        Self([lo.x, lo.y, lo.z, self.0[3], hi.x, hi.y, hi.z, self.0[7]])
     }
 
     #[inline(always)]
     pub(super) fn bounds(&self) -> Bounds {
-        Bounds { lo: xyz(self.lo_and_primitive), hi: xyz(self.hi_and_owner) }
+        let [lo, negated_hi] = self.corners();
+        Bounds { lo: xyz(lo), hi: -xyz(negated_hi) }
     }
 
     /// Twice the midpoint.
     #[inline(always)]
     pub(super) fn centre2(&self) -> Vec4 {
-        xyz(self.lo_and_primitive) + xyz(self.hi_and_owner)
+        let [lo, negated_hi] = self.corners();
+        xyz(lo) - xyz(negated_hi)
+    }
+
+    /// Whether no ray can hit it.
+    fn is_empty(&self) -> bool {
+        self.0[0] > -self.0[4]
+    }
+
+    #[inline(always)]
+    fn corners(&self) -> [Vec4; 2] {
+        let [a, b, c, d, e, f, g, h] = self.0;
+        [Vec4::new(a, b, c, d), Vec4::new(e, f, g, h)]
     }
 }
 
@@ -120,6 +124,52 @@ impl Bounds {
     }
 }
 
+/// A box as a reference has it: lower corner, negated upper corner; the fourth lanes mean nothing.
+#[derive(Clone, Copy)]
+#[repr(C, align(32))]
+pub(super) struct Corners(pub(super) [f32; 8]);
+
+impl Corners {
+    pub(super) const EMPTY: Self = Self([f32::INFINITY; 8]);
+
+    #[inline(always)]
+    pub(super) fn point(p: Vec4) -> Self {
+        let [x, y, z, _] = p.to_array();
+        Self([x, y, z, 0.0, -x, -y, -z, 0.0])
+    }
+
+    #[inline(always)]
+    pub(super) fn grow(&mut self, other: &Self) {
+        for (a, b) in self.0.iter_mut().zip(other.0) {
+            *a = if b < *a { b } else { *a };
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn union(mut self, other: &Self) -> Self {
+        self.grow(other);
+        self
+    }
+
+    /// Added to each lane, infinity makes the box empty.
+    #[inline(always)]
+    pub(super) fn plus(self, x: f32) -> Self {
+        Self(self.0.map(|lane| lane + x))
+    }
+
+    #[inline(always)]
+    pub(super) fn bounds(&self) -> Bounds {
+        let [a, b, c, _, d, e, f, _] = self.0;
+        Bounds { lo: Vec4::new(a, b, c, 0.0), hi: -Vec4::new(d, e, f, 0.0) }
+    }
+
+    /// Half the surface; NaN or infinite for an empty box.
+    #[inline(always)]
+    pub(super) fn half_area(&self) -> f32 {
+        self.bounds().half_area()
+    }
+}
+
 /// The references of one object's own geometry, its spheres, and how many primitives were dropped.
 pub(super) struct Collected {
     pub(super) refs: Vec<Ref>,
@@ -127,42 +177,61 @@ pub(super) struct Collected {
     pub(super) dropped: usize,
 }
 
-/// Makes a reference for each primitive that a ray could hit.
-pub(super) fn collect(geometries: &[Geometry]) -> Collected {
-    let mut all = Collected { refs: Vec::new(), spheres: Vec::new(), dropped: 0 };
+/// Makes a reference for each primitive that a ray could hit, behind those in `before`. There is room for `share` times as many
+/// more.
+pub(super) fn collect(geometries: &[Geometry], before: &[Ref], share: f32) -> Collected {
+    let count = |shape: &Geometry| if let Geometry::Triangles { indices, .. } = shape { indices.len() } else { 1 };
+    let most = before.len() + geometries.iter().map(count).sum::<usize>();
+    let mut refs = large_vec(most + (most as f32 * share) as usize);
+    refs.extend_from_slice(before);
+    let mut spheres = Vec::new();
     for (geometry, shape) in geometries.iter().enumerate() {
         let geometry = geometry as u32;
         match *shape {
             Geometry::Triangles { positions, indices } => {
-                let before = all.refs.len();
-                all.refs.par_extend(indices.par_iter().enumerate().filter_map(|(primitive, corners)| {
+                refs.par_extend(indices.par_iter().with_min_len(CHUNK).enumerate().map(|(primitive, corners)| {
                     let owner = Owner::Triangle { geometry, primitive: primitive as u32 };
                     triangle_ref(corners.map(|i| positions[i as usize]), owner)
                 }));
-                all.dropped += indices.len() - (all.refs.len() - before);
             }
             Geometry::Sphere { centre, radius } => {
-                let index = all.spheres.len() as u32;
-                match sphere_ref(centre, radius, index) {
-                    Some(reference) => {
-                        all.refs.push(reference);
-                        all.spheres.push(Sphere { centre, radius, geometry });
-                    }
-                    None => all.dropped += 1,
+                if let Some(reference) = sphere_ref(centre, radius, spheres.len() as u32) {
+                    refs.push(reference);
+                    spheres.push(Sphere { centre, radius, geometry });
                 }
             }
         }
     }
-    all
+    if refs.par_iter().with_min_len(CHUNK).any(Ref::is_empty) {
+        refs.retain(|reference| !reference.is_empty());
+    }
+    Collected { dropped: most - refs.len(), refs, spheres }
 }
 
-/// `None` for triangles without area and for coordinates that are not usable.
-fn triangle_ref(corners: [Vec3; 3], owner: Owner) -> Option<Ref> {
+/// The box around all, and the sum of their half surfaces, which does not depend on the number of threads.
+pub(super) fn measure(refs: &[Ref]) -> (Bounds, f64) {
+    let measure = |chunk: &[Ref]| {
+        let grow = |(all, sum): (Bounds, f64), reference: &Ref| {
+            let bounds = reference.bounds();
+            (all.union(&bounds), sum + f64::from(bounds.half_area()))
+        };
+        chunk.iter().fold((Bounds::EMPTY, 0.0), grow)
+    };
+    let parts: Vec<_> = refs.par_chunks(CHUNK).map(measure).collect();
+    parts.iter().fold((Bounds::EMPTY, 0.0), |(all, sum), (bounds, more)| (all.union(bounds), sum + more))
+}
+
+/// Empty for triangles without area and for coordinates that are not usable.
+#[inline(always)]
+fn triangle_ref(corners: [Vec3; 3], owner: Owner) -> Ref {
     let [a, b, c] = corners;
     let (lo, hi) = (a.min(b).min(c), a.max(b).max(c));
     let usable = corners.iter().all(|p| p.abs().cmplt(Vec3::splat(MAX_COORDINATE)).all());
-    let normal = (b - a).as_dvec3().cross((c - a).as_dvec3());
-    (usable && normal != glam::DVec3::ZERO).then(|| Ref::new(lo, hi, owner))
+    let (along, across) = (b - a, c - a);
+    // Rounded products that differ are those of different products.
+    let has_area =
+        || along.cross(across) != Vec3::ZERO || along.as_dvec3().cross(across.as_dvec3()) != glam::DVec3::ZERO;
+    if usable && has_area() { Ref::new(lo, hi, owner) } else { Ref::new(Vec3::INFINITY, Vec3::NEG_INFINITY, owner) }
 }
 
 /// `None` for spheres without a positive finite radius or at unusable coordinates.
