@@ -113,7 +113,7 @@ fn compare(name: &str, mesh: &Mesh, library: &std::path::Path, options: &Options
     if options.only_builds {
         return;
     }
-    let sets = scenes::ray_sets(mesh, &own, options.side);
+    let sets = scenes::ray_sets(|hit| mesh.normal(hit), &own, options.side);
     for threads in [1, 2] {
         table(&embree, &own, &sets, threads, options.reps);
     }

@@ -1,4 +1,4 @@
-//! The two benchmark scenes and the seven ray sets.
+//! The benchmark scenes and the seven ray sets.
 //!
 //! S1, "ball": a noisy icosphere of 1.3 M triangles in a Cornell box. S2, "clutter": 160 small noisy spheres and
 //! 100 000 long thin slivers in the same box. Rays are those of a path tracer's first bounces.
@@ -34,7 +34,7 @@ impl Rng {
     }
 
     /// Uniform in the cube [-1, 1)³.
-    fn cube(&mut self) -> Vec3 {
+    pub(crate) fn cube(&mut self) -> Vec3 {
         Vec3::new(self.uniform(), self.uniform(), self.uniform()) * 2.0 - 1.0
     }
 }
@@ -68,6 +68,12 @@ pub(crate) fn clutter() -> Mesh {
 }
 
 impl Mesh {
+    /// The normal of the triangle that was hit, of either side.
+    pub(crate) fn normal(&self, hit: &accel::Hit) -> Vec3 {
+        let [a, b, c] = self.indices[hit.primitive as usize].map(|i| self.positions[i as usize]);
+        (b - a).cross(c - a).normalize()
+    }
+
     fn append(&mut self, other: &Self, map: impl Fn(Vec3) -> Vec3) {
         let first = self.positions.len() as u32;
         self.positions.extend(other.positions.iter().map(|&p| map(p)));
@@ -87,7 +93,7 @@ impl Mesh {
     }
 
     /// A Cornell box without its front, a lamp below the ceiling, and two boxes on the floor.
-    fn add_room(&mut self) {
+    pub(crate) fn add_room(&mut self) {
         let (x, y, z) = (Vec3::X * 2.0, Vec3::Y * 2.0, Vec3::Z * 2.0);
         self.add_rectangle(Vec3::NEG_ONE, x, z);
         self.add_rectangle(Vec3::new(-1.0, 1.0, -1.0), z, x);
@@ -107,7 +113,7 @@ impl Mesh {
 }
 
 /// A subdivided icosahedron of radius about 0.55, displaced by six octaves of noise.
-fn noisy_sphere(level: u32) -> Mesh {
+pub(crate) fn noisy_sphere(level: u32) -> Mesh {
     let golden = f32::midpoint(1.0, 5_f32.sqrt());
     let mut positions = Vec::new();
     for (a, b) in [(-1.0, golden), (1.0, golden), (-1.0, -golden), (1.0, -golden)] {

@@ -1,7 +1,7 @@
 //! The rays a path tracer would send, one million per set.
 
-use super::{Mesh, Rng};
-use accel::{Bvh, Ray};
+use super::Rng;
+use accel::{Bvh, Hit, Ray};
 use glam::Vec3;
 
 /// Rays of one kind.
@@ -13,13 +13,14 @@ pub(crate) struct RaySet {
 }
 
 /// Camera rays in tiles of 8 by 8 pixels; cosine-distributed rays after one and three hits, the latter also in random
-/// order; shadow rays to the lamp from the first and third hit; and the first bounce again as occlusion rays.
-pub(crate) fn ray_sets(mesh: &Mesh, bvh: &Bvh, side: u32) -> Vec<RaySet> {
+/// order; shadow rays to the lamp from the first and third hit; and the first bounce again as occlusion rays. `normal` tells the
+/// normal at a hit.
+pub(crate) fn ray_sets(normal: impl Fn(&Hit) -> Vec3, bvh: &Bvh, side: u32) -> Vec<RaySet> {
     let primary = camera(side);
     let mut rng = Rng::new(12345);
-    let (cosine1, shadow1) = bounce(mesh, bvh, &primary, &mut rng);
-    let (cosine2, _) = bounce(mesh, bvh, &cosine1, &mut rng);
-    let (cosine3, shadow3) = bounce(mesh, bvh, &cosine2, &mut rng);
+    let (cosine1, shadow1) = bounce(&normal, bvh, &primary, &mut rng);
+    let (cosine2, _) = bounce(&normal, bvh, &cosine1, &mut rng);
+    let (cosine3, shadow3) = bounce(&normal, bvh, &cosine2, &mut rng);
     let mut shuffled = cosine3.clone();
     for i in (1..shuffled.len()).rev() {
         let j = (f64::from(rng.uniform()) * (i + 1) as f64) as usize;
@@ -48,13 +49,12 @@ fn camera(side: u32) -> Vec<Ray> {
 }
 
 /// From the hit of each ray, a cosine-distributed ray and a ray to a point of the lamp.
-fn bounce(mesh: &Mesh, bvh: &Bvh, rays: &[Ray], rng: &mut Rng) -> (Vec<Ray>, Vec<Ray>) {
+fn bounce(normal: impl Fn(&Hit) -> Vec3, bvh: &Bvh, rays: &[Ray], rng: &mut Rng) -> (Vec<Ray>, Vec<Ray>) {
     let mut onward = Vec::new();
     let mut shadow = Vec::new();
     for ray in rays {
         let Some(hit) = bvh.closest(ray) else { continue };
-        let [a, b, c] = mesh.indices[hit.primitive as usize].map(|i| mesh.positions[i as usize]);
-        let normal = (b - a).cross(c - a).normalize();
+        let normal = normal(&hit);
         let normal = if normal.dot(ray.d) > 0.0 { -normal } else { normal };
         let o = ray.at(hit.t) + normal * 1e-4;
         onward.push(Ray { o, d: cosine_direction(normal, rng), tmin: 1e-4, tmax: f32::INFINITY });

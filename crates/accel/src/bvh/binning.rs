@@ -12,6 +12,9 @@ use rayon::prelude::*;
 
 /// Ranges longer than this are binned by several threads.
 const PARALLEL: usize = 1 << 15;
+/// From so many references on they go to two sets of bins in turn: neighbours mostly have the same bin, and the second would
+/// wait for the first.
+const TWO_SETS: usize = 256;
 
 /// `K` bins on each axis: the boxes around what they hold, and how much that is.
 #[derive(Clone, Copy)]
@@ -22,9 +25,9 @@ struct Bins<const K: usize> {
 
 /// Maps a doubled centre to a bin on each axis.
 #[derive(Clone, Copy)]
-struct Grid {
-    origin: Vec4,
-    scale: Vec4,
+pub(super) struct Grid {
+    pub(super) origin: Vec4,
+    pub(super) scale: Vec4,
     last: Vec4,
 }
 
@@ -47,10 +50,10 @@ impl Grid {
 
 /// A way to divide a range of references in two.
 pub(super) struct ObjectSplit {
-    grid: Grid,
-    axis: usize,
+    pub(super) grid: Grid,
+    pub(super) axis: usize,
     /// First bin of the right side.
-    bin: usize,
+    pub(super) bin: usize,
     /// Sum over the sides of half surface times number of blocks.
     pub(super) cost: f32,
     /// The boxes of both sides.
@@ -74,46 +77,8 @@ impl ObjectSplit {
             let parts = refs.par_chunks(PARALLEL / 4).map(|chunk| Bins::<K>::filled(chunk, &grid, level));
             parts.reduce(|| Bins::EMPTY, Bins::plus).best(grid)
         } else {
-            Bins::<K>::filled(refs, &grid, level).best(grid)
+            Bins::<K>::best_of(refs, grid, level)
         }
-    }
-
-    /// Moves the left side to the front; returns its length and the boxes around the doubled centres of both sides.
-    pub(super) fn partition(&self, refs: &mut [Ref], level: SimdLevel) -> (usize, [Bounds; 2]) {
-        match level {
-            SimdLevel::Portable => self.partition_with(refs),
-            #[cfg(target_arch = "x86_64")]
-            // SAFETY: the processor was asked.
-            SimdLevel::Avx2 | SimdLevel::Avx512 => unsafe { self.partition_avx2(refs) },
-            #[cfg(not(target_arch = "x86_64"))]
-            _ => self.partition_with(refs),
-        }
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn partition_avx2(&self, refs: &mut [Ref]) -> (usize, [Bounds; 2]) {
-        self.partition_with(refs)
-    }
-
-    /// Without branches, as nothing foretells to which side a reference goes.
-    #[inline(always)]
-    fn partition_with(&self, refs: &mut [Ref]) -> (usize, [Bounds; 2]) {
-        let (origin, scale, bin) = (self.grid.origin[self.axis], self.grid.scale[self.axis], self.bin as f32);
-        let mut centres = [Corners::EMPTY; 2];
-        let mut middle = 0;
-        for i in 0..refs.len() {
-            let reference = refs[i];
-            let centre = reference.0[self.axis] - reference.0[self.axis + 4];
-            let is_left = (centre - origin) * scale < bin;
-            let centre = Corners::point(reference.centre2());
-            centres[0].grow(&centre.plus([f32::INFINITY, 0.0][usize::from(is_left)]));
-            centres[1].grow(&centre.plus([0.0, f32::INFINITY][usize::from(is_left)]));
-            refs[i] = refs[middle];
-            refs[middle] = reference;
-            middle += usize::from(is_left);
-        }
-        (middle, centres.map(|side| side.bounds()))
     }
 }
 
@@ -121,34 +86,49 @@ impl<const K: usize> Bins<K> {
     const EMPTY: Self = Self { boxes: [[Corners::EMPTY; K]; 3], counts: [[0; K]; 3] };
 
     fn filled(refs: &[Ref], grid: &Grid, level: SimdLevel) -> Self {
-        let mut bins = Self::EMPTY;
         match level {
-            SimdLevel::Portable => bins.fill(refs, grid),
+            SimdLevel::Portable => Self::fill(refs, grid),
             #[cfg(target_arch = "x86_64")]
-            // SAFETY: the processor was asked.
-            SimdLevel::Avx2 | SimdLevel::Avx512 => unsafe { bins.fill_avx2(refs, grid) },
+            // SAFETY: the builder takes the level from `SimdLevel::detect`.
+            SimdLevel::Avx2 | SimdLevel::Avx512 => unsafe { Self::fill_avx2(refs, grid) },
             #[cfg(not(target_arch = "x86_64"))]
-            _ => bins.fill(refs, grid),
+            _ => Self::fill(refs, grid),
         }
-        bins
     }
 
     #[cfg(target_arch = "x86_64")]
     #[target_feature(enable = "avx2")]
-    fn fill_avx2(&mut self, refs: &[Ref], grid: &Grid) {
-        self.fill(refs, grid);
+    fn fill_avx2(refs: &[Ref], grid: &Grid) -> Self {
+        Self::fill(refs, grid)
     }
 
     #[inline(always)]
-    fn fill(&mut self, refs: &[Ref], grid: &Grid) {
-        for reference in refs {
-            for (axis, bin) in grid.bins(reference).into_iter().enumerate() {
-                self.boxes[axis][bin & (K - 1)].grow(&Corners(reference.0));
-                self.counts[axis][bin & (K - 1)] += 1;
-            }
+    fn fill(refs: &[Ref], grid: &Grid) -> Self {
+        let mut bins = Self::EMPTY;
+        let (pairs, rest) = if refs.len() < TWO_SETS { refs.split_at(0) } else { refs.split_at(refs.len() & !1) };
+        for reference in rest {
+            bins.add(reference, grid);
+        }
+        if pairs.is_empty() {
+            return bins;
+        }
+        let mut others = Self::EMPTY;
+        for pair in pairs.chunks_exact(2) {
+            bins.add(&pair[0], grid);
+            others.add(&pair[1], grid);
+        }
+        bins.plus(others)
+    }
+
+    #[inline(always)]
+    fn add(&mut self, reference: &Ref, grid: &Grid) {
+        for (axis, bin) in grid.bins(reference).into_iter().enumerate() {
+            self.boxes[axis][bin & (K - 1)].grow(&Corners(reference.0));
+            self.counts[axis][bin & (K - 1)] += 1;
         }
     }
 
+    #[inline(always)]
     fn plus(mut self, other: Self) -> Self {
         for axis in 0..3 {
             for bin in 0..K {
@@ -159,17 +139,49 @@ impl<const K: usize> Bins<K> {
         self
     }
 
-    /// The cheapest split, if there is one.
-    fn best(&self, grid: Grid) -> Option<ObjectSplit> {
-        let splits = (0..3).filter(|&axis| grid.scale[axis] > 0.0).filter_map(|axis| Some((axis, self.sweep(axis)?)));
-        let (axis, (bin, cost)) = splits.reduce(|best, other| if other.1.1 < best.1.1 { other } else { best })?;
-        let (left, right) = self.boxes[axis].split_at(bin);
-        let around = |boxes: &[Corners]| boxes.iter().fold(Corners::EMPTY, Corners::union).bounds();
-        Some(ObjectSplit { grid, axis, bin, cost, sides: [around(left), around(right)] })
+    /// The cheapest split of references that one thread looks at.
+    fn best_of(refs: &[Ref], grid: Grid, level: SimdLevel) -> Option<ObjectSplit> {
+        match level {
+            SimdLevel::Portable => Self::fill(refs, &grid).best(grid),
+            #[cfg(target_arch = "x86_64")]
+            // SAFETY: the builder takes the level from `SimdLevel::detect`.
+            SimdLevel::Avx2 | SimdLevel::Avx512 => unsafe { Self::best_of_avx2(refs, grid) },
+            #[cfg(not(target_arch = "x86_64"))]
+            _ => Self::fill(refs, &grid).best(grid),
+        }
     }
 
-    /// The best first bin of the right side on one axis, and what it costs.
-    fn sweep(&self, axis: usize) -> Option<(usize, f32)> {
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn best_of_avx2(refs: &[Ref], grid: Grid) -> Option<ObjectSplit> {
+        Self::fill(refs, &grid).best(grid)
+    }
+
+    /// The cheapest split, if there is one.
+    #[inline(always)]
+    fn best(&self, grid: Grid) -> Option<ObjectSplit> {
+        let (mut axis, mut bin, mut cost) = (0, 0, f32::INFINITY);
+        for other in 0..3 {
+            if grid.scale[other] > 0.0 {
+                let (at, least) = self.sweep(other);
+                if least < cost {
+                    (axis, bin, cost) = (other, at, least);
+                }
+            }
+        }
+        if bin == 0 {
+            return None;
+        }
+        let mut sides = [Corners::EMPTY; 2];
+        for (i, corners) in self.boxes[axis].iter().enumerate() {
+            sides[usize::from(i >= bin)].grow(corners);
+        }
+        Some(ObjectSplit { grid, axis, bin, cost, sides: [sides[0].bounds(), sides[1].bounds()] })
+    }
+
+    /// The best first bin of the right side on one axis, and what it costs: infinitely much if there is none.
+    #[inline(always)]
+    fn sweep(&self, axis: usize) -> (usize, f32) {
         let (boxes, counts) = (&self.boxes[axis], &self.counts[axis]);
         let mut right = [0.0; K];
         let (mut around, mut count) = (Corners::EMPTY, 0);
@@ -178,17 +190,14 @@ impl<const K: usize> Bins<K> {
             count += counts[i];
             right[i] = if count == 0 { f32::INFINITY } else { around.half_area() * blocks_for(count) as f32 };
         }
-        let mut best: Option<(usize, f32)> = None;
+        let mut best = (0, f32::INFINITY);
         (around, count) = (Corners::EMPTY, 0);
         for i in 1..K {
             around.grow(&boxes[i - 1]);
             count += counts[i - 1];
-            if count == 0 {
-                continue;
-            }
-            let cost = around.half_area() * blocks_for(count) as f32 + right[i];
-            if cost < best.map_or(f32::INFINITY, |b| b.1) {
-                best = Some((i, cost));
+            let left = if count == 0 { f32::INFINITY } else { around.half_area() * blocks_for(count) as f32 };
+            if left + right[i] < best.1 {
+                best = (i, left + right[i]);
             }
         }
         best

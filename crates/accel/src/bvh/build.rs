@@ -61,13 +61,23 @@ struct Built {
 /// The binary hierarchy over `refs`, which are reordered; empty if there are none. The root comes first. `firsts` are the first
 /// numbers of the geometries' triangles.
 pub(super) fn build(refs: &mut [Ref], geometries: &[Geometry], firsts: &[u32], quality: Quality) -> Vec<Words> {
+    build_with(SimdLevel::detect(), refs, geometries, firsts, quality)
+}
+
+fn build_with(
+    level: SimdLevel,
+    refs: &mut [Ref],
+    geometries: &[Geometry],
+    firsts: &[u32],
+    quality: Quality,
+) -> Vec<Words> {
     if refs.is_empty() {
         return Vec::new();
     }
     let side = refs.par_chunks(CHUNK).map(Side::measure).reduce(|| Side::EMPTY, Side::union);
     let (extra, crowd) = quality.spatial();
     let largest = side.bounds.half_area() * 0.02;
-    let builder = Builder { geometries, firsts, level: SimdLevel::detect(), largest, crowd };
+    let builder = Builder { geometries, firsts, level, largest, crowd };
     let budget = (refs.len() as f32 * extra) as usize;
     let surfaces = if budget > 0 { Surfaces::measure(refs) } else { Surfaces::default() };
     let mut range = Range { refs, side, surfaces, depth: 0, budget };
@@ -227,4 +237,51 @@ fn children<'a>(
     }
     let range = |refs, side, surfaces, budget| Range { refs, side, surfaces, depth: depth + 1, budget };
     [range(left, sides[0], surfaces[0], left_budget), range(right, sides[1], surfaces[1], budget - left_budget)]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    /// Boxes of all sizes, on a plane and in a heap, from a fixed formula.
+    fn boxes(count: u32) -> Vec<Ref> {
+        let wave = |i: u32, k: f32| ((i as f32 + 1.0) * k).sin();
+        let reference = |i: u32| {
+            let height = if i.is_multiple_of(3) { 0.0 } else { wave(i, 3.7) };
+            let lo = Vec3::new(wave(i, 1.3), height, wave(i, 2.1));
+            let size = Vec3::new(wave(i, 5.3), wave(i, 6.1), wave(i, 7.9)).abs() * 0.01;
+            Ref::new(lo, lo + size, Owner::Triangle { geometry: 0, primitive: i })
+        };
+        (0..count).map(reference).collect()
+    }
+
+    #[test]
+    fn the_tree_depends_neither_on_threads_nor_on_vectors() {
+        let tree = |threads: usize, level: SimdLevel| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| build_with(level, &mut boxes(70_000), &[], &[0], Quality::Default))
+        };
+        let expected = tree(1, SimdLevel::Portable);
+        assert!(tree(1, SimdLevel::detect()) == expected, "vectors");
+        assert!(tree(3, SimdLevel::detect()) == expected, "threads");
+    }
+
+    #[test]
+    fn both_sides_of_a_split_are_measured_while_it_is_made() {
+        for level in [SimdLevel::Portable, SimdLevel::detect()] {
+            for count in [5, 20, 300, 50_000] {
+                let mut refs = boxes(count);
+                let split = ObjectSplit::find(&refs, &Side::measure(&refs).centres, level).unwrap();
+                let (middle, centres) = split.partition(&mut refs, level);
+                let (left, right) = refs.split_at(middle);
+                for (side, refs) in [left, right].into_iter().enumerate() {
+                    let expected = Side::measure(refs);
+                    assert!(!refs.is_empty());
+                    assert_eq!((split.sides[side].lo, split.sides[side].hi), (expected.bounds.lo, expected.bounds.hi));
+                    assert_eq!((centres[side].lo, centres[side].hi), (expected.centres.lo, expected.centres.hi));
+                }
+            }
+        }
+    }
 }

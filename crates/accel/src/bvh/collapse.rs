@@ -14,7 +14,7 @@ use super::{
 const NODE_COST: f32 = 1.0;
 const BLOCK_COST: f32 = 0.4;
 /// Most triangles that collapse into one leaf.
-pub(super) const MAX_LEAF: u32 = (LANES * Child::MAX_BLOCKS) as u32;
+const MAX_LEAF: u32 = (LANES * Child::MAX_BLOCKS) as u32;
 
 /// The optimal choices for one binary subtree: for a forest of i roots, how many go to the left child (0: as with i - 1
 /// roots), and whether the subtree as one root is a leaf.

@@ -3,14 +3,15 @@
 use super::{
     Geometry,
     cells::{Cell, Places, Stored},
-    collapse::{MAX_LEAF, Size},
+    collapse::Size,
+    leaves::Leaves,
     names::Names,
     node::{Child, Node, WIDTH},
-    tree::{Binary, Content, NO_TRIANGLE, Words},
-    triangle::{Block, LANES},
+    tree::{Binary, Content, Words},
 };
 use crate::memory::large_vec;
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Subtrees with more wide nodes than this are written in parallel.
 const PARALLEL: u32 = 1024;
@@ -21,6 +22,7 @@ const PAGE: u32 = 128;
 /// A binary node whose wide node has no place yet.
 struct Open {
     at: usize,
+    half_area: f32,
     /// Which node of the top names it in which slot.
     parent: Option<(usize, usize)>,
 }
@@ -60,6 +62,8 @@ struct Kid {
     child: Child,
     /// The surface of everything inside, one side of triangles.
     surface: f32,
+    /// By this the children of a node are ordered.
+    worth: f32,
 }
 
 /// A wide node that has a place.
@@ -91,29 +95,32 @@ impl Emitter<'_> {
         let mut node = Node::EMPTY;
         let mut own = cells.take(Node::CELLS);
         if !self.tree.is_empty() {
-            let leaf = self.get(0);
-            node.set(0, leaf.lo, leaf.hi, self.leaf(0, cells).0);
+            let (leaf, mut leaves) = (self.get(0), Leaves::new(self.geometries, self.names));
+            let triangles = leaves.gather(self.tree, 0);
+            node.set(0, leaf.lo, leaf.hi, Self::leaf(&leaf, &leaves, triangles, &mut cells).0);
         }
         own.put(node);
     }
 
     /// Writes a subtree: first its top, as much as a page holds, then the subtrees below. Returns the surface inside.
     fn subtree(&self, mut job: Job) -> f32 {
-        let mut open = vec![Open { at: job.at, parent: None }];
+        let mut open = vec![Open { at: job.at, half_area: 0.0, parent: None }];
         let mut top: Vec<Top> = Vec::new();
         let mut used = 0;
         while used < PAGE {
-            let larger = |&a: &usize, &b: &usize| self.half_area(open[a].at).total_cmp(&self.half_area(open[b].at));
+            let larger = |&a: &usize, &b: &usize| open[a].half_area.total_cmp(&open[b].half_area);
             let Some(largest) = (0..open.len()).max_by(larger) else { break };
-            let Open { at, parent } = open.swap_remove(largest);
+            let Open { at, parent, .. } = open.swap_remove(largest);
             let before = job.cells.first();
             let cells = job.cells.take(Node::CELLS);
             if let Some(kid) = kid(&mut top, parent) {
                 kid.child = Child::inner(cells.first());
             }
             let kids = self.kids(at, &mut job.cells);
-            let inner = kids.iter().enumerate().filter(|(_, kid)| kid.child.is_inner());
-            open.extend(inner.map(|(slot, kid)| Open { at: kid.at, parent: Some((top.len(), slot)) }));
+            for (slot, kid) in kids.iter().enumerate().filter(|(_, kid)| kid.child.is_inner()) {
+                let half_area = self.get(kid.at).half_area();
+                open.push(Open { at: kid.at, half_area, parent: Some((top.len(), slot)) });
+            }
             top.push(Top { cells, kids, parent });
             used += job.cells.first() - before;
         }
@@ -153,29 +160,43 @@ impl Emitter<'_> {
 
     /// The children of the wide node of `at`; leaves are written.
     fn kids(&self, at: usize, cells: &mut Places) -> Vec<Kid> {
-        let mut roots = Vec::with_capacity(WIDTH);
+        let mut roots = Roots { at: [0; WIDTH], count: 0 };
         self.split(at, self.get(at).plan.left_roots(WIDTH), WIDTH, &mut roots);
-        let kid = |at: usize| {
+        let roots = &roots.at[..roots.count];
+        let mut leaves = Leaves::new(self.geometries, self.names);
+        let ranges = roots.iter().map(|&at| {
+            let is_leaf = self.get(at).plan.is_leaf();
+            if is_leaf { leaves.gather(self.tree, at) } else { 0..0 }
+        });
+        let ranges: Vec<_> = ranges.collect();
+        leaves.prefetch();
+        let kid = |(&at, range): (&usize, Range<usize>)| {
             let binary = self.get(at);
-            let (child, surface) = if binary.plan.is_leaf() {
-                self.leaf(at, cells.take(binary.size().cells()))
-            } else {
-                (Child::inner(0), 0.0)
-            };
-            Kid { at, child, surface }
+            let (child, surface) =
+                if binary.plan.is_leaf() { Self::leaf(&binary, &leaves, range, cells) } else { (Child::inner(0), 0.0) };
+            Kid { at, child, surface, worth: 0.0 }
         };
-        roots.into_iter().map(kid).collect()
+        roots.iter().zip(ranges).map(kid).collect()
+    }
+
+    /// Writes a leaf, whose triangles have been gathered; also gives the surface inside.
+    fn leaf(binary: &Binary, leaves: &Leaves, triangles: Range<usize>, cells: &mut Places) -> (Child, f32) {
+        match binary.content {
+            Content::Sphere(index) => (Child::sphere(index), binary.half_area()),
+            Content::Instance(index) => (Child::instance(index), binary.half_area()),
+            Content::Pair { .. } | Content::Row(_) => leaves.write(triangles, cells.take(binary.size().cells())),
+        }
     }
 
     /// Rays that ask for any hit take the last child first: the one with the best odds of a hit for its cost, of which
     /// only the root counts, as a hit ends the search. A line that meets a box meets surfaces inside as often, on average, as
     /// half of the box's surface goes into theirs.
     fn node(&self, mut kids: Vec<Kid>) -> Node {
-        let worth = |kid: &Kid| {
+        for kid in &mut kids {
             let binary = self.get(kid.at);
-            (1.0 - (-kid.surface / binary.half_area()).exp()) / binary.cost.sqrt()
-        };
-        kids.sort_by_cached_key(|kid| worth(kid).to_bits());
+            kid.worth = (1.0 - (-kid.surface / binary.half_area()).exp()) / binary.cost.sqrt();
+        }
+        kids.sort_by_key(|kid| kid.worth.to_bits());
         let mut node = Node::EMPTY;
         for (slot, kid) in kids.into_iter().enumerate() {
             let binary = self.get(kid.at);
@@ -184,80 +205,26 @@ impl Emitter<'_> {
         node
     }
 
-    fn half_area(&self, at: usize) -> f32 {
-        self.get(at).half_area()
-    }
-
     /// The binary nodes that represent the children of `at` as `count` roots, `left` of them in the left child.
-    fn split(&self, at: usize, left: usize, count: usize, out: &mut Vec<usize>) {
-        let [left_at, right_at] = self.children(at);
-        for (at, mut count) in [(left_at, left), (right_at, count - left)] {
+    fn split(&self, at: usize, left: usize, count: usize, roots: &mut Roots) {
+        let Content::Pair { right, .. } = self.get(at).content else { unreachable!("plans divide pairs only") };
+        for (at, mut count) in [(at + 1, left), (at + right as usize, count - left)] {
             let plan = self.get(at).plan;
             while count > 1 && plan.left_roots(count) == 0 {
                 count -= 1;
             }
             if count == 1 {
-                out.push(at);
+                roots.at[roots.count] = at;
+                roots.count += 1;
             } else {
-                self.split(at, plan.left_roots(count), count, out);
+                self.split(at, plan.left_roots(count), count, roots);
             }
-        }
-    }
-
-    fn children(&self, at: usize) -> [usize; 2] {
-        let Content::Pair { right, .. } = self.get(at).content else { unreachable!("plans divide pairs only") };
-        [at + 1, at + right as usize]
-    }
-
-    /// Writes the leaf for everything below `at`; also the surface inside.
-    fn leaf(&self, at: usize, mut cells: Places) -> (Child, f32) {
-        match self.get(at).content {
-            Content::Sphere(index) => return (Child::sphere(index), self.half_area(at)),
-            Content::Instance(index) => return (Child::instance(index), self.half_area(at)),
-            Content::Pair { .. } | Content::Row(_) => {}
-        }
-        let mut leaf = Gathered { numbers: [NO_TRIANGLE; MAX_LEAF as usize], count: 0 };
-        self.gather(at, &mut leaf);
-        let (first, mut surface) = (cells.first(), 0.0);
-        let blocks = leaf.numbers[..leaf.count]
-            .chunks(LANES)
-            .map(|numbers| cells.put(self.block(numbers, &mut surface)))
-            .count();
-        assert!(cells.is_empty(), "sizes are exact");
-        (Child::blocks(first, blocks as u32), surface)
-    }
-
-    fn block(&self, numbers: &[u32], surface: &mut f32) -> Block {
-        let mut block = Block::EMPTY;
-        for (lane, &number) in numbers.iter().enumerate() {
-            let (geometry, primitive) = self.names.of(number);
-            let corners @ [a, b, c] = self.geometries[geometry as usize].corners(primitive);
-            *surface += 0.5 * (b - a).cross(c - a).length();
-            block.set(lane, corners, number);
-        }
-        block
-    }
-
-    /// Adds the triangles below `at`.
-    fn gather(&self, at: usize, leaf: &mut Gathered) {
-        match self.get(at).content {
-            Content::Pair { right, .. } => {
-                self.gather(at + 1, leaf);
-                self.gather(at + right as usize, leaf);
-            }
-            Content::Row(row) => {
-                for number in row.into_iter().filter(|&number| number != NO_TRIANGLE) {
-                    leaf.numbers[leaf.count] = number;
-                    leaf.count += 1;
-                }
-            }
-            Content::Sphere(_) | Content::Instance(_) => unreachable!("only triangles share a leaf"),
         }
     }
 }
 
-/// The triangles of a leaf.
-struct Gathered {
-    numbers: [u32; MAX_LEAF as usize],
+/// The binary nodes that become the children of a wide one.
+struct Roots {
+    at: [usize; WIDTH],
     count: usize,
 }

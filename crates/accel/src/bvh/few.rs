@@ -17,7 +17,7 @@ pub(super) fn divide(refs: &mut [Ref], level: SimdLevel) -> Option<usize> {
     let half_areas = match level {
         SimdLevel::Portable => half_areas(refs),
         #[cfg(target_arch = "x86_64")]
-        // SAFETY: the processor was asked.
+        // SAFETY: the builder takes the level from `SimdLevel::detect`.
         SimdLevel::Avx2 | SimdLevel::Avx512 => unsafe { half_areas_avx2(refs) },
         #[cfg(not(target_arch = "x86_64"))]
         _ => half_areas(refs),
@@ -49,12 +49,14 @@ fn half_areas_avx2(refs: &[Ref]) -> [f32; SETS] {
 /// The half surface of the box around each set; bits beyond the references do not count.
 #[inline(always)]
 fn half_areas(refs: &[Ref]) -> [f32; SETS] {
-    let extents = [0, 1, 2].map(|axis| {
-        let (lo, negated_hi) = (least(refs, axis), least(refs, axis + 4));
-        std::array::from_fn(|set| -(lo[set] + negated_hi[set]))
-    });
-    let [x, y, z]: [[f32; SETS]; 3] = extents;
-    std::array::from_fn(|set| x[set] * y[set] + y[set] * z[set] + z[set] * x[set])
+    let [x0, y0, z0] = [least(refs, 0), least(refs, 1), least(refs, 2)];
+    let [x1, y1, z1] = [least(refs, 4), least(refs, 5), least(refs, 6)];
+    let mut half_areas = [0.0; SETS];
+    for set in 0..SETS {
+        let (x, y, z) = (x0[set] + x1[set], y0[set] + y1[set], z0[set] + z1[set]);
+        half_areas[set] = x * y + y * z + z * x;
+    }
+    half_areas
 }
 
 /// The least value of a lane in each set.
@@ -62,10 +64,9 @@ fn half_areas(refs: &[Ref]) -> [f32; SETS] {
 fn least(refs: &[Ref], lane: usize) -> [f32; SETS] {
     let mut least = [f32::INFINITY; SETS];
     for i in 0..LANES {
-        let value = refs.get(i).map_or(f32::INFINITY, |reference| reference.0[lane]);
-        let (without, with) = least.split_at_mut(1 << i);
-        for (with, without) in with.iter_mut().zip(without) {
-            *with = if value < *without { value } else { *without };
+        let value = if i < refs.len() { refs[i].0[lane] } else { f32::INFINITY };
+        for set in 0..1 << i {
+            least[set + (1 << i)] = if value < least[set] { value } else { least[set] };
         }
     }
     least

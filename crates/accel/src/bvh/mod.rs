@@ -18,9 +18,11 @@ mod collapse;
 mod emit;
 mod few;
 mod instance;
+mod leaves;
 mod names;
 mod node;
 mod objects;
+mod partition;
 mod presplit;
 mod refs;
 mod simd;
@@ -36,7 +38,7 @@ pub use instance::Instance;
 pub use objects::Objects;
 pub use simd::SimdLevel;
 
-use crate::{Aabb, Hit, Ray};
+use crate::{Aabb, Hit, Ray, memory::prefetch};
 use cells::Cell;
 use glam::{Vec3, Vec4Swizzles};
 use instance::Placed;
@@ -70,6 +72,20 @@ impl Geometry<'_> {
     fn corners(&self, primitive: u32) -> [Vec3; 3] {
         let Self::Triangles { positions, indices } = self else { unreachable!("only meshes own triangles") };
         indices[primitive as usize].map(|i| positions[i as usize])
+    }
+
+    /// Asks the caches for the indices of a triangle.
+    fn prefetch_indices(&self, primitive: u32) {
+        if let Self::Triangles { indices, .. } = self {
+            prefetch(&indices[primitive as usize]);
+        }
+    }
+
+    /// Asks the caches for the corners of a triangle.
+    fn prefetch_corners(&self, primitive: u32) {
+        if let Self::Triangles { positions, indices } = self {
+            indices[primitive as usize].iter().for_each(|&i| prefetch(&positions[i as usize]));
+        }
     }
 }
 

@@ -37,7 +37,7 @@ pub(super) fn presplit(refs: &mut Vec<Ref>, geometries: &[Geometry], bounds: &Bo
         (waste > 2.0 * unit).then(|| Candidate { index, cuts: (waste / unit).sqrt() })
     };
     let find = |chunk: &[Ref]| chunk.iter().enumerate().filter_map(candidate).collect();
-    let candidates: Vec<Vec<Candidate>> = refs.par_chunks(CHUNK).map(find).collect();
+    let candidates: Vec<Vec<Candidate>> = refs.par_chunks(CHUNK).with_max_len(1).map(find).collect();
     let scale = affordable(&candidates, (refs.len() as f32 * share) as usize);
     let grid = Grid { scene: *bounds, geometries };
     let divide = |(chunk, candidates): (&mut [Ref], &Vec<Candidate>)| {
@@ -49,7 +49,7 @@ pub(super) fn presplit(refs: &mut Vec<Ref>, geometries: &[Geometry], bounds: &Bo
         }
         parts
     };
-    let parts: Vec<_> = refs.par_chunks_mut(CHUNK).zip(&candidates).map(divide).collect();
+    let parts: Vec<_> = refs.par_chunks_mut(CHUNK).zip(&candidates).with_max_len(1).map(divide).collect();
     parts.iter().for_each(|parts| refs.extend_from_slice(parts));
 }
 

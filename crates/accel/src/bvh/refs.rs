@@ -1,14 +1,13 @@
 //! What the builder sorts: references, a box and the name of the primitive inside.
 
 use super::{Geometry, sphere::Sphere};
-use crate::memory::large_vec;
 use glam::{BVec4A, Vec3, Vec4};
 use rayon::prelude::*;
 
 /// Coordinates beyond this count as infinite; products of three lengths must stay finite.
 const MAX_COORDINATE: f32 = 1e18;
 /// References that one thread looks at in turn.
-pub(super) const CHUNK: usize = 1 << 13;
+pub(super) const CHUNK: usize = 1 << 12;
 
 /// A primitive, or a part of one, with its box: the lower corner, the primitive's bits, the upper corner negated, the
 /// owner's bits. So the smaller of each of two references' lanes makes the box around both.
@@ -140,21 +139,18 @@ impl Corners {
 
     #[inline(always)]
     pub(super) fn grow(&mut self, other: &Self) {
-        for (a, b) in self.0.iter_mut().zip(other.0) {
-            *a = if b < *a { b } else { *a };
+        for i in 0..8 {
+            self.0[i] = if other.0[i] < self.0[i] { other.0[i] } else { self.0[i] };
         }
-    }
-
-    #[inline(always)]
-    pub(super) fn union(mut self, other: &Self) -> Self {
-        self.grow(other);
-        self
     }
 
     /// Added to each lane, infinity makes the box empty.
     #[inline(always)]
-    pub(super) fn plus(self, x: f32) -> Self {
-        Self(self.0.map(|lane| lane + x))
+    pub(super) fn plus(mut self, x: f32) -> Self {
+        for lane in &mut self.0 {
+            *lane += x;
+        }
+        self
     }
 
     #[inline(always)]
@@ -182,7 +178,7 @@ pub(super) struct Collected {
 pub(super) fn collect(geometries: &[Geometry], before: &[Ref], share: f32) -> Collected {
     let count = |shape: &Geometry| if let Geometry::Triangles { indices, .. } = shape { indices.len() } else { 1 };
     let most = before.len() + geometries.iter().map(count).sum::<usize>();
-    let mut refs = large_vec(most + (most as f32 * share) as usize);
+    let mut refs = Vec::with_capacity(most + (most as f32 * share) as usize);
     refs.extend_from_slice(before);
     let mut spheres = Vec::new();
     for (geometry, shape) in geometries.iter().enumerate() {
