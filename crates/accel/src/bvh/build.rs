@@ -15,7 +15,8 @@ use rayon::prelude::*;
 
 /// Below this depth ranges are halved by count, so that no input makes a deep tree.
 const FAIR_DEPTH: usize = 40;
-/// No path from the root is longer: what is left after `FAIR_DEPTH` has at most 2^28 references.
+/// No path from the root is longer: what is left after `FAIR_DEPTH` has at most 2^28 references, is halved at most 26 times, and four
+/// references take three splits.
 pub(super) const MAX_DEPTH: usize = FAIR_DEPTH + 29;
 /// Ranges longer than this are built in parallel.
 const PARALLEL: usize = 4096;

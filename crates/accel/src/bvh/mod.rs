@@ -3,7 +3,7 @@
 //! An eight-wide bounding volume hierarchy over triangles, spheres and instances of objects.
 //!
 //! ```text
-//! Geometry --refs--> boxes --build--> binary tree --collapse, emit--> Tables --traverse--> Hit
+//! Geometry --refs, presplit--> boxes --build--> binary tree --collapse, emit--> Tables --traverse--> Hit
 //! ```
 //!
 //! World and objects share one node format; an instance is a leaf of the world whose object starts at some node of the
