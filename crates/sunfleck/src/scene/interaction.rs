@@ -171,6 +171,14 @@ impl Interaction {
     #[inline]
     pub fn sample(&self, u_lobe: f32, u: Vec2, mode: Transport) -> Option<Scattered> {
         let lo = self.local(self.wo);
+        if let Bsdf::Diffuse(matt) = &self.bsdf
+            && self.is_flat()
+        {
+            // As below, where there is nothing for normals to disagree about.
+            let BsdfSample { wi, weight, pdf, .. } = matt.sample(lo, u_lobe, u, mode)?;
+            let wi = self.frame.to_world(wi);
+            return Some(Scattered { wi, weight, pdf, delta: false, eta: 1.0, crosses: false, disperses: false });
+        }
         let s = self.bsdf.sample(lo, u_lobe, u, mode)?;
         let wi = self.frame.to_world(s.wi);
         if !(self.sides_agree(self.wo, lo) && self.sides_agree(wi, s.wi)) || s.weight.is_black() {

@@ -50,9 +50,11 @@ impl PointGrid {
 
     /// As [`Self::within`], but passes the slot, which is the point's place in [`Self::order`].
     #[inline]
-    pub fn within_slots(&self, p: Vec3, r: f32, visit: impl FnMut(u32, f32)) {
+    pub fn within_slots(&self, p: Vec3, r: f32, mut visit: impl FnMut(u32, f32)) {
         if p.is_finite() && r >= 0.0 {
-            self.isa.run(Query::new(self, p, r, visit));
+            // One short loop over what was found, which the compiler sees as a whole.
+            let visit_all = |slots: &[u32], d2: &[f32]| slots.iter().zip(d2).for_each(|(&slot, &d2)| visit(slot, d2));
+            self.isa.run(Query::new(self, p, r, visit_all));
         }
     }
 

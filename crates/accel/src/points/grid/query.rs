@@ -34,13 +34,13 @@ struct Sphere<'g> {
     reach2: f32,
 }
 
-/// A sphere, and what to do with each point in it.
+/// A sphere, and what to do with the slots and squared distances of points in it, some at a time.
 pub(super) struct Query<'g, F> {
     sphere: Sphere<'g>,
     visit: F,
 }
 
-impl<'g, F: FnMut(u32, f32)> Query<'g, F> {
+impl<'g, F: FnMut(&[u32], &[f32])> Query<'g, F> {
     #[inline(always)]
     pub(super) fn new(grid: &'g PointGrid, p: Vec3, r: f32, visit: F) -> Self {
         let r2 = r * r;
@@ -83,7 +83,7 @@ struct Search<'g, F> {
     visit: F,
 }
 
-impl<F: FnMut(u32, f32)> Search<'_, F> {
+impl<F: FnMut(&[u32], &[f32])> Search<'_, F> {
     /// Notes cells of the bricks that come, until none comes or there is no room; true in the latter case.
     #[inline(always)]
     fn note<L: Lanes>(&mut self, lanes: L, bricks: &mut Touched) -> bool {
@@ -141,12 +141,12 @@ impl<F: FnMut(u32, f32)> Search<'_, F> {
 
 /// Visits what was found, and forgets it.
 #[inline(always)]
-fn visit_all(slots: &[u32], d2: &[f32], found: &mut usize, visit: &mut impl FnMut(u32, f32)) {
-    slots[..*found].iter().zip(&d2[..*found]).for_each(|(&slot, &d2)| visit(slot, d2));
+fn visit_all(slots: &[u32], d2: &[f32], found: &mut usize, visit: &mut impl FnMut(&[u32], &[f32])) {
+    visit(&slots[..*found], &d2[..*found]);
     *found = 0;
 }
 
-impl<F: FnMut(u32, f32)> Task for Query<'_, F> {
+impl<F: FnMut(&[u32], &[f32])> Task for Query<'_, F> {
     #[inline(always)]
     fn run<L: Lanes>(self, lanes: L) {
         let Self { sphere, visit } = self;
