@@ -29,8 +29,7 @@ impl Sphere {
             return None;
         }
         let q = half_b + (a * discriminant).sqrt().copysign(half_b);
-        let distance = to_origin.length();
-        let c = (distance - radius) * (distance + radius);
+        let c = to_origin.length_squared() - radius * radius;
         let (t0, t1) = (c / q, q / a);
         Some([t0.min(t1) as f32, t0.max(t1) as f32])
     }

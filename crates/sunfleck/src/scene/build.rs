@@ -320,7 +320,7 @@ fn looks(materials: &[Material], textures: &[Texture]) -> Vec<Looks> {
         let own = m.textures();
         let even = own.iter().all(|t| matches!(textures[t.0 as usize], Texture::Constant(_)));
         let asks_vertices = own.iter().any(|t| of_vertices[t.0 as usize]);
-        Looks { at_uv: !(m.is_plain() && even), at_place_alone: m.is_plain() && !asks_vertices, interior: None }
+        Looks { is_even: m.is_plain() && even, at_place_alone: m.is_plain() && !asks_vertices, interior: None }
     };
     materials.iter().map(one).collect()
 }

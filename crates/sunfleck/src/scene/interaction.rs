@@ -1,5 +1,5 @@
 //! A point where a path meets a surface, and everything that can be asked there.
-use super::{MaterialId, Surface};
+use super::{MaterialId, Surface, world::Even};
 use crate::{
     bsdf::{Bsdf, BsdfSample, Lobes, Scatter, Transport, cover::Covered},
     light::{EmitterHit, LightEnd, LightId},
@@ -84,17 +84,28 @@ impl NearSide {
 
 impl Interaction {
     #[inline(always)]
-    pub(super) fn new(s: &SurfacePoint, wo: Vec3, distance: f32, bsdf: Bsdf, surface: &Surface) -> Self {
-        let covered = Covered { bsdf, frame: Frame::from_normal(s.n), widest: bsdf.lobes() };
-        Self::covered(s, wo, distance, &covered, surface)
+    pub(super) fn new(s: &SurfacePoint, wo: Vec3, distance: f32, even: &Even, surface: &Surface) -> Self {
+        // Not by way of `covered`: each copy of a closure is dear.
+        Self {
+            p: s.p,
+            p_error: s.p_error,
+            ng: s.ng,
+            frame: Frame::from_normal(s.n),
+            wo,
+            distance,
+            uv: s.uv,
+            bsdf: even.bsdf,
+            material: surface.material,
+            widest: even.widest,
+            light: surface.light,
+            near: Medium::VACUUM,
+            far: Medium::VACUUM,
+        }
     }
-    #[inline(always)]
+    #[inline]
     pub(super) fn covered(s: &SurfacePoint, wo: Vec3, distance: f32, by: &Covered, surface: &Surface) -> Self {
         let Covered { bsdf, frame, widest } = *by;
-        let (material, light) = (surface.material, surface.light);
-        let (near, far) = (Medium::VACUUM, Medium::VACUUM);
-        let (p, p_error, ng, uv) = (s.p, s.p_error, s.ng, s.uv);
-        Self { p, p_error, ng, frame, wo, distance, uv, bsdf, material, widest, light, near, far }
+        Self { frame, ..Self::new(s, wo, distance, &Even { bsdf, widest }, surface) }
     }
     /// The emitting surface that was met.
     #[inline]

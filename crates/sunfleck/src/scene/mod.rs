@@ -76,8 +76,8 @@ pub struct Scene {
 /// What a material must be told of a hit.
 #[derive(Clone, Copy, Debug)]
 struct Looks {
-    /// Texture coordinates.
-    at_uv: bool,
+    /// Nothing at all: a plain model without textures.
+    is_even: bool,
     /// Nothing but the point, its texture coordinates and its normal: see [`Record`].
     at_place_alone: bool,
     /// What lies behind it. Not of a hit, but looked up with the rest.

@@ -68,7 +68,9 @@ impl Moment {
 /// A surface for the tables; if it emits, its light is added to `lights`, which are numbered from `first` on.
 pub(super) fn freeze(s: SurfaceDef, first: usize, lights: &mut Vec<Light>) -> Surface {
     let light = s.emission.map(|(radiance, sides)| {
-        lights.push(Light::Area(AreaLight { shape: s.shape.clone(), radiance, sides }));
+        // Points are drawn from a patch faster, and spread better, than from two triangles.
+        let patch = if let Shape::Mesh(m) = &s.shape { m.as_parallelogram().map(Shape::Parallelogram) } else { None };
+        lights.push(Light::Area(AreaLight { shape: patch.unwrap_or_else(|| s.shape.clone()), radiance, sides }));
         LightId((first + lights.len() - 1) as u32)
     });
     Surface { shape: s.shape, material: s.material, light }

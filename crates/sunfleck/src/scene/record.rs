@@ -1,10 +1,6 @@
 //! Hits kept for later.
-use super::{Interaction, MaterialId};
-use crate::{
-    bsdf::{Bsdf, Scatter},
-    math::Frame,
-    medium::Medium,
-};
+use super::{Interaction, MaterialId, world::Even};
+use crate::{math::Frame, medium::Medium};
 use glam::{Vec2, Vec3};
 
 /// A hit in 64 bytes, of which [`super::World::recall`] makes an [`Interaction`] again where [`super::World::can_recall`]
@@ -32,8 +28,7 @@ impl Record {
     }
     /// The hit with its scattering. It has no light, a distance of 0, and empty space on both sides.
     #[inline]
-    pub(super) fn with(&self, bsdf: Bsdf) -> Interaction {
-        let widest = bsdf.lobes();
+    pub(super) fn with(&self, even: &Even) -> Interaction {
         Interaction {
             p: self.p,
             p_error: Vec3::splat(self.p_error),
@@ -42,9 +37,9 @@ impl Record {
             wo: self.wo,
             distance: 0.0,
             uv: self.uv,
-            bsdf,
+            bsdf: even.bsdf,
             material: self.material,
-            widest,
+            widest: even.widest,
             light: None,
             near: Medium::VACUUM,
             far: Medium::VACUUM,

@@ -2,10 +2,11 @@
 use super::{
     Interaction, Record, Surface, World,
     moment::{Moment, Placement},
+    world::Even,
 };
 use crate::{
     bsdf::{
-        Lookup, ThinDielectric,
+        Lookup, Scatter, ThinDielectric,
         cover::{Coin, Covered, Site, cover, opacity},
     },
     math::Ray,
@@ -24,15 +25,19 @@ impl World<'_> {
         let bvh = &self.moment.bvh;
         let hit = if self.scene.porous.is_empty() { bvh.closest(ray) } else { self.closest_between_holes(ray) }?;
         let (surface, point) = self.locate(&hit, ray);
+        let (wo, t) = (-ray.d, hit.t);
+        if let Some(even) = &self.even[surface.material.0 as usize] {
+            return Some(Interaction::new(&point, wo, t, even, surface));
+        }
         let attributes = surface.shape.attributes(&hit);
         let at =
             Lookup { textures: &self.scene.textures, uv: point.uv, p: point.p, lambda: self.around.lambda, attributes };
         let material = &self.scene.materials[surface.material.0 as usize];
-        let (wo, t) = (-ray.d, hit.t);
-        if material.is_plain() {
-            return Some(Interaction::new(&point, wo, t, material.resolve(&at), surface));
-        }
-        let covered = self.cover(&hit, ray, surface, &point, at);
+        let covered = if material.is_plain() {
+            Covered::plain(material.resolve(&at), point.n)
+        } else {
+            self.cover(&hit, ray, surface, &point, at)
+        };
         Some(Interaction::covered(&point, wo, t, &covered, surface))
     }
     /// Whether [`World::recall`] makes `at` again from a record of it.
@@ -43,8 +48,12 @@ impl World<'_> {
     /// The hit that `record` was made of, in a world of the same time and wavelengths.
     #[inline]
     pub fn recall(&self, record: &Record) -> Interaction {
+        if let Some(even) = &self.even[record.material.0 as usize] {
+            return record.with(even);
+        }
         let at = Lookup::new(&self.scene.textures, record.uv, record.p, self.around.lambda);
-        record.with(self.scene.materials[record.material.0 as usize].resolve(&at))
+        let bsdf = self.scene.materials[record.material.0 as usize].resolve(&at);
+        record.with(&Even { bsdf, widest: bsdf.lobes() })
     }
     /// Whether something lies within the reach of `ray`.
     #[inline]
@@ -66,7 +75,7 @@ impl World<'_> {
     pub(super) fn locate(&self, hit: &Hit, ray: &Ray) -> (&Surface, SurfacePoint) {
         let at = ray.o + hit.t * ray.d;
         let (surface, placed) = self.surface(hit);
-        let wants_uv = self.scene.looks[surface.material.0 as usize].at_uv;
+        let wants_uv = self.even[surface.material.0 as usize].is_none();
         let Some(placed) = placed else { return (surface, surface.shape.surface_point(hit, at, wants_uv)) };
         let local = surface.shape.surface_point(hit, placed.object_from_world.transform_point3(at), wants_uv);
         (surface, placed.to_world(&local))

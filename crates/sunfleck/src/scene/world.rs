@@ -1,7 +1,7 @@
 //! The scene as one pass sees it: at one set of wavelengths and at one time.
-use super::{Interaction, Scene, filled::Filled, moment::Moment};
+use super::{Interaction, Looks, Scene, filled::Filled, moment::Moment};
 use crate::{
-    bsdf::Bsdf,
+    bsdf::{Bsdf, Lobes, Lookup, Material, Scatter},
     camera::{Camera, Project},
     light::{Emitter, LiSample, Light, LightId, Surroundings},
     sampler::Sampler,
@@ -17,7 +17,17 @@ pub struct World<'s> {
     time: f32,
     pub(super) moment: Arc<Moment>,
     pub(super) filled: Filled,
+    /// What materials are that are the same everywhere, by material.
+    pub(super) even: Vec<Option<Even>>,
     camera: Cow<'s, Camera>,
+}
+
+/// A material that is the same everywhere, as one pass sees it: looked up once, not at every hit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Even {
+    pub(super) bsdf: Bsdf,
+    /// [`Interaction::widest`].
+    pub(super) widest: Lobes,
 }
 
 /// A light drawn for next-event estimation, with all probabilities multiplied in.
@@ -40,6 +50,20 @@ pub struct Sky {
     pub pdf_direct: f32,
 }
 
+impl Scene {
+    /// See [`World::even`].
+    fn even(&self, lambda: Wavelengths) -> Vec<Option<Even>> {
+        let at = Lookup::new(&self.textures, Vec2::ZERO, Vec3::ZERO, lambda);
+        let one = |(m, looks): (&Material, &Looks)| {
+            looks.is_even.then(|| {
+                let bsdf = m.resolve(&at);
+                Even { bsdf, widest: bsdf.lobes() }
+            })
+        };
+        self.materials.iter().zip(&self.looks).map(one).collect()
+    }
+}
+
 impl<'s> World<'s> {
     pub(super) fn new(scene: &'s Scene, lambda: Wavelengths, time: f32) -> Self {
         let around = scene.surroundings(lambda);
@@ -48,7 +72,8 @@ impl<'s> World<'s> {
             Some(to) => Cow::Owned(scene.camera.between(to, time).expect("a way that was found when it was built")),
         };
         let moment = scene.geometry.at(&scene.lights, &around, time);
-        let mut world = Self { scene, around, time, moment, filled: Filled::default(), camera };
+        let even = scene.even(lambda);
+        let mut world = Self { scene, around, time, moment, filled: Filled::default(), even, camera };
         world.fill();
         world
     }

@@ -1,5 +1,5 @@
 //! Indexed triangles with optional vertex normals and texture coordinates.
-use super::{AreaSample, Attributes, SurfacePoint, gamma, plane_error, unit_and_length};
+use super::{AreaSample, Attributes, Parallelogram, SurfacePoint, gamma, plane_error, unit_and_length};
 use crate::math::{Discrete, warp::square_to_triangle};
 use accel::Hit;
 use glam::{Affine3A, Vec2, Vec3};
@@ -161,6 +161,21 @@ impl Mesh {
         let (p, p_error, ng) = self.point(triangle as u32, b.x, b.y);
         AreaSample { p, p_error, ng }
     }
+    /// The parallelogram that two triangles make up, if that is what the mesh is.
+    pub(crate) fn as_parallelogram(&self) -> Option<Parallelogram> {
+        let &[first, second] = self.indices.as_slice() else { return None };
+        // Turned so that the first one's edge from `c` to `a` is the diagonal, which the second runs along the other way.
+        let turns = |[a, b, c]: [u32; 3]| [[a, b, c], [b, c, a], [c, a, b]];
+        let same = |i: u32, j: u32| self.positions[i as usize] == self.positions[j as usize];
+        let corners = turns(first).into_iter().find_map(|[a, b, c]| {
+            turns(second).into_iter().find_map(|[e, f, d]| (same(e, a) && same(f, c)).then_some([a, b, c, d]))
+        });
+        let [a, b, c, d] = corners?.map(|i| self.positions[i as usize]);
+        let (u, v) = (b - a, d - a);
+        let extent = a.abs().max(b.abs()).max(c.abs()).max(d.abs()).max_element();
+        let even = (a + u + v - c).abs().max_element() <= 4.0 * f32::EPSILON * extent;
+        (even && u.cross(v).length_squared() > 0.0).then(|| Parallelogram::new(a, u, v))
+    }
     pub(super) fn transformed(&self, m: &Affine3A) -> Self {
         let normal_matrix = m.matrix3.inverse().transpose();
         let mirrored = m.matrix3.determinant() < 0.0;
@@ -189,6 +204,23 @@ mod tests {
             Mesh::new(p, vec![Vec3::Z], vec![], vec![]).unwrap_err(),
             MeshError::Attribute { what: "normals", found: 1, vertices: 3 }
         );
+    }
+
+    #[test]
+    fn two_triangles_are_a_parallelogram_if_they_share_a_diagonal_and_a_side() {
+        let mesh = |p: [Vec3; 4], t: [[u32; 3]; 2]| Mesh::new(p.to_vec(), vec![], vec![], t.to_vec()).unwrap();
+        let p = [Vec3::ZERO, Vec3::X, Vec3::new(1.5, 2.0, 0.0), Vec3::new(0.5, 2.0, 0.0)];
+        for t in [[[0, 1, 2], [0, 2, 3]], [[2, 0, 1], [3, 0, 2]], [[1, 2, 3], [3, 0, 1]]] {
+            let patch = mesh(p, t).as_parallelogram().unwrap();
+            let mut corners = patch.corners().map(|c| [c.x, c.y]);
+            corners.sort_by(|a, b| a.partial_cmp(b).unwrap());
+            assert_eq!(corners, [[0.0, 0.0], [0.5, 2.0], [1.0, 0.0], [1.5, 2.0]]);
+            assert!(patch.u().cross(patch.v()).z > 0.0);
+        }
+        // Turned against each other, a kite, folded along the diagonal.
+        assert!(mesh(p, [[0, 1, 2], [0, 3, 2]]).as_parallelogram().is_none());
+        let moved = |to: Vec3| mesh([p[0], p[1], p[2], to], [[0, 1, 2], [0, 2, 3]]).as_parallelogram();
+        assert!(moved(Vec3::new(0.4, 2.0, 0.0)).is_none() && moved(Vec3::new(0.5, 2.0, 0.1)).is_none());
     }
 
     #[test]

@@ -59,6 +59,13 @@ pub struct Covered {
     pub widest: Lobes,
 }
 
+impl Covered {
+    /// A model by itself, under the shading normal `n`.
+    pub(crate) fn plain(bsdf: Bsdf, n: Vec3) -> Self {
+        Self { bsdf, frame: Frame::from_normal(n), widest: bsdf.lobes() }
+    }
+}
+
 /// One of the materials of this room.
 #[derive(Clone, Debug)]
 pub enum Covering {

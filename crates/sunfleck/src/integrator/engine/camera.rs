@@ -2,7 +2,7 @@
 use super::{
     gather::gather,
     joins::{Joins, LastLeg},
-    lamps::Lamps,
+    lamps::{First, Lamps},
     light::Subpaths,
     mis::{Leg, Rule, Sums},
     plan::Plan,
@@ -64,8 +64,8 @@ pub(super) struct Look<'w> {
     track: Track,
     /// Only surfaces without other than delta lobes so far: the lights that are met are left to [`Lamps`].
     mirrors_only: bool,
-    /// The first surface was a mirror or glass.
-    mirrored: bool,
+    /// The first surface, if it was a mirror or glass.
+    mirror: Option<First>,
     /// The last vertex gathered all but direct light.
     gathered: bool,
     /// [`Joins::hit_share`] of the last vertex.
@@ -93,7 +93,7 @@ impl<'w> Look<'w> {
             partner: start.partner,
             track: Track::new(),
             mirrors_only: true,
-            mirrored: false,
+            mirror: None,
             gathered: false,
             hit_share: 1.0,
             from: start.from,
@@ -102,12 +102,10 @@ impl<'w> Look<'w> {
             counts,
         }
     }
-    /// Whether the first surface was a mirror or glass.
-    pub(super) fn began_with_delta(&self) -> bool {
-        self.mirrored
-    }
-    /// Adds the lights that are seen through mirrors and glass alone.
-    pub(super) fn add_lamps(&mut self, lamps: &Lamps) {
+    /// Adds the lights that are seen through mirrors and glass alone; `sampler` goes on from the walk.
+    pub(super) fn add_lamps(&mut self, sampler: &mut Sampler) {
+        let Some(first) = self.mirror.take() else { return };
+        let lamps = Lamps::look(self.eye.world, &first, self.eye.limits, sampler);
         self.rays += u64::from(lamps.rays);
         self.add(Technique::Hit, lamps.sum, 1.0);
     }
@@ -144,8 +142,8 @@ impl Visit for Look<'_> {
     #[inline]
     fn surface(&mut self, a: &Arrival, sampler: &mut Sampler) -> Step {
         let eye = self.eye;
-        if a.scatterings == 0 {
-            self.mirrored = !a.at.is_connectible();
+        if a.scatterings == 0 && eye.rule.on.hit && !a.at.is_connectible() {
+            self.mirror = Some(First::new(a));
         }
         let sums = self.track.arrive_from_camera(&self.rule, self.pixel, a.scatterings, a.at);
         self.meet(a, &sums);

@@ -7,8 +7,9 @@
 //! is lost, no lamp is ever seen much brighter than it looks, and the tree stays small.
 use crate::{
     bsdf::Transport,
+    medium::Inside,
     sampler::Sampler,
-    scene::{Scattered, World},
+    scene::{Interaction, Scattered, World},
     spectrum::Spectrum,
     walk::{Arrival, Escape, Limits, Start, Step, Visit, walk},
 };
@@ -30,13 +31,45 @@ struct Branch {
     scatterings: u32,
 }
 
+/// Where a camera ray met a mirror or glass first.
+pub(super) struct First {
+    at: Interaction,
+    /// Throughput that arrives.
+    beta: Spectrum,
+    inside: Inside,
+}
+
+impl First {
+    /// `a`, of the camera ray itself.
+    pub(super) fn new(a: &Arrival) -> Self {
+        Self { at: *a.at, beta: a.beta, inside: *a.inside }
+    }
+    fn arrival(&self) -> Arrival<'_> {
+        let Self { at, beta, inside } = self;
+        Arrival {
+            at,
+            beta: *beta,
+            departed: Spectrum::ONE,
+            scatterings: 0,
+            pdf: 1.0,
+            delta: true,
+            caustic: false,
+            all_delta: true,
+            dispersed: false,
+            travelled: at.distance,
+            inside,
+        }
+    }
+}
+
 /// What is seen past the first surface, which is a mirror or glass.
 pub(super) struct Lamps<'w> {
     world: &'w World<'w>,
     /// Scatterings at most.
     most: u32,
-    /// The way that is being followed.
-    now: Branch,
+    /// Of the way that is being followed, as in [`Branch`].
+    eta_scale: f32,
+    scatterings: u32,
     waiting: Vec<Branch>,
     /// Radiance.
     pub(super) sum: Spectrum,
@@ -45,18 +78,19 @@ pub(super) struct Lamps<'w> {
 }
 
 impl<'w> Lamps<'w> {
-    /// Follows all ways from `start`.
-    pub(super) fn look(world: &'w World<'w>, start: &Start, limits: Limits, sampler: &mut Sampler) -> Self {
-        let now = Branch { start: *start, carries: 1.0, eta_scale: 1.0, scatterings: 0 };
-        let most = limits.scatterings;
-        let mut lamps = Self { world, most, now, waiting: Vec::new(), sum: Spectrum::BLACK, rays: 0 };
-        loop {
-            lamps.rays += 1;
-            let start = lamps.now.start;
-            walk(world, &start, &limits, sampler, &mut lamps);
-            let Some(next) = lamps.brightest() else { return lamps };
-            lamps.now = next;
+    /// Follows all ways on from `first`, where the camera ray met a mirror or glass.
+    pub(super) fn look(world: &'w World<'w>, first: &First, limits: Limits, sampler: &mut Sampler) -> Self {
+        let (sum, waiting, most) = (Spectrum::BLACK, Vec::new(), limits.scatterings);
+        let mut lamps = Self { world, most, eta_scale: 1.0, scatterings: 0, waiting, sum, rays: 0 };
+        if most > 0 {
+            lamps.part(&first.arrival(), sampler);
         }
+        while let Some(Branch { start, eta_scale, scatterings, .. }) = lamps.brightest() {
+            (lamps.eta_scale, lamps.scatterings) = (eta_scale, scatterings);
+            lamps.rays += 1;
+            walk(world, &start, &limits, sampler, &mut lamps);
+        }
+        lamps
     }
     /// Takes the way that carries most, so that the rays are spent there.
     fn brightest(&mut self) -> Option<Branch> {
@@ -85,7 +119,7 @@ impl<'w> Lamps<'w> {
             beta = beta.hero_only();
             dispersed = true;
         }
-        let eta_scale = self.now.eta_scale * s.eta * s.eta;
+        let eta_scale = self.eta_scale * s.eta * s.eta;
         let mut carries = beta.max() * eta_scale;
         let least = (LEAST * (1u64 << (self.rays / PATIENCE).min(32)) as f32).min(1.0);
         if carries < least {
@@ -97,25 +131,21 @@ impl<'w> Lamps<'w> {
             carries = least;
         }
         let start = Start { beta, dispersed, ..a.branch(self.world, s, Transport::Radiance) };
-        self.waiting.push(Branch { start, carries, eta_scale, scatterings: self.now.scatterings + 1 });
+        self.waiting.push(Branch { start, carries, eta_scale, scatterings: self.scatterings + 1 });
     }
 }
 
 impl Visit for Lamps<'_> {
     fn surface(&mut self, a: &Arrival, sampler: &mut Sampler) -> Step {
-        if self.now.scatterings > 0 {
-            self.sum += a.beta * self.world.emitted(a.at);
-        }
-        if self.now.scatterings < self.most && !a.at.is_connectible() {
+        self.sum += a.beta * self.world.emitted(a.at);
+        if self.scatterings < self.most && !a.at.is_connectible() {
             self.part(a, sampler);
         }
         Step::Stop
     }
     fn escape(&mut self, e: &Escape) {
-        if self.now.scatterings > 0 {
-            for sky in self.world.escaped(e.ray.o, e.ray.d) {
-                self.sum += e.beta * sky.le;
-            }
+        for sky in self.world.escaped(e.ray.o, e.ray.d) {
+            self.sum += e.beta * sky.le;
         }
     }
 }
@@ -175,6 +205,16 @@ mod tests {
         }
     }
 
+    /// The mirror or glass that a camera ray meets first.
+    struct Met(Option<First>);
+
+    impl Visit for Met {
+        fn surface(&mut self, a: &Arrival, _: &mut Sampler) -> Step {
+            self.0 = (!a.at.is_connectible()).then(|| First::new(a));
+            Step::Stop
+        }
+    }
+
     /// Mean and variance.
     fn moments(n: u64, mut sample: impl FnMut(u64) -> f64) -> (f64, f64) {
         let (sum, squares) = (0..n).map(&mut sample).fold((0.0, 0.0), |(s, q), x| (s + x, q + x * x));
@@ -195,9 +235,13 @@ mod tests {
                 let ray = world.camera().ray(pixel.unwrap_or(raster), Vec2::ZERO).ray;
                 let start = Start::from_camera(&world, ray);
                 if tree {
-                    let lamps = Lamps::look(&world, &start, limits, &mut sampler);
-                    rays += u64::from(lamps.rays);
-                    f64::from(lamps.sum.max())
+                    let mut met = Met(None);
+                    rays += walk(&world, &start, &limits, &mut sampler, &mut met);
+                    met.0.map_or(0.0, |first| {
+                        let lamps = Lamps::look(&world, &first, limits, &mut sampler);
+                        rays += u64::from(lamps.rays);
+                        f64::from(lamps.sum.max())
+                    })
                 } else {
                     let mut one = OneWay(&world, 0.0);
                     walk(&world, &start, &limits, &mut sampler, &mut one);

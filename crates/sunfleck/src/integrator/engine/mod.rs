@@ -43,7 +43,6 @@ use crate::{
 use camera::{Eye, EyeStart, Look, Only};
 use chains::Chains;
 use glam::Vec2;
-use lamps::Lamps;
 use light::{Shower, Subpaths};
 use mis::Rule;
 use plan::Plan;
@@ -328,10 +327,7 @@ impl Prepared<'_> {
             let mut look = Look::new(&eye, start, counts);
             let (limits, start_ray) = (&self.engine.limits, ray.start(&world));
             let rays = walk(&world, &start_ray, limits, &mut ray.sampler, &mut look);
-            if rule.on.hit && look.began_with_delta() {
-                // The numbers go on from those of the walk.
-                look.add_lamps(&Lamps::look(&world, &start_ray, *limits, &mut ray.sampler));
-            }
+            look.add_lamps(&mut ray.sampler);
             look.finish(rays).to_rgb(job.pass.lambda) * (job.share * ray.weight)
         });
     }
