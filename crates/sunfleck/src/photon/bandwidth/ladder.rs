@@ -1,7 +1,7 @@
 //! Gathers with many radii at once, and what their scatter says.
 use super::{Bandwidth, FAMILIES, GatherError, spots::Spot};
 use crate::{
-    photon::{Photon, Radii, RadiusMap, Shower},
+    photon::{Catch, Photon, Radii, RadiusMap, Shower},
     sampler::Domain,
     scene::World,
     spectrum::{Spectrum, Wavelengths},
@@ -17,17 +17,44 @@ const RUNGS: usize = CANDIDATES + 1;
 /// The bias of a rung over what it is off the next, where light is smooth: 1 / (1 - 1/STEP²).
 const BIAS_OVER_STEP: f64 = 4.0 / 3.0;
 
+/// Sets of photons that share nothing, to try radii on. They do not depend on radii, so all trials share them.
+pub(super) struct Sets {
+    /// Light paths of a set.
+    pub(super) paths: u64,
+    catches: Vec<Catch>,
+}
+
+impl Sets {
+    /// `count` sets of so many paths each.
+    pub(super) fn shoot(how: &Bandwidth, world: &World, count: u64, paths: u64) -> Self {
+        let mut sets = Self { paths, catches: Vec::new() };
+        sets.add(how, world, count);
+        sets
+    }
+    /// More sets, if there are less than `count`.
+    pub(super) fn add(&mut self, how: &Bandwidth, world: &World, count: u64) {
+        for set in self.catches.len() as u64..count {
+            let shower = Shower {
+                seed: how.seed,
+                domain: Domain::Prepare,
+                pass: u64::MAX - 64 - set,
+                first: 0,
+                paths: self.paths,
+                keep: how.keep,
+                limits: how.limits,
+            };
+            self.catches.push(shower.shoot(world, how.source));
+        }
+    }
+}
+
 /// A ladder of radii and photons to try them on.
 #[derive(Clone, Copy)]
 pub(super) struct Ladder<'b> {
     pub(super) bandwidth: &'b Bandwidth<'b>,
     /// The top rung over the radius of a spot.
     pub(super) top: f32,
-    /// Light paths of a set.
-    pub(super) paths: u64,
-    pub(super) sets: u64,
-    /// Another number for other photons.
-    pub(super) round: u64,
+    pub(super) sets: &'b Sets,
 }
 
 /// What one climb found.
@@ -188,16 +215,17 @@ impl Ladder<'_> {
         self.top * STEP.powi(-(rung as i32))
     }
 
-    pub(super) fn climb(&self, world: &World, radii: &Radii, spots: &[Spot]) -> Measured {
+    pub(super) fn climb(&self, radii: &Radii, spots: &[Spot]) -> Measured {
+        let Sets { paths, catches } = self.sets;
         let mut sums = vec![Sums::default(); spots.len()];
-        for set in 0..self.sets {
-            let map = self.shoot(world, set, radii.typical() * self.top);
+        for catch in catches {
+            let map = RadiusMap::new(&catch.positions, &catch.photons, radii.typical() * self.top);
             sums.par_iter_mut().zip(spots).for_each(|(sum, spot)| {
                 sum.add(&self.gather(&map, spot));
             });
         }
-        let n = self.sets as f64;
-        let share = self.paths as f64 / self.bandwidth.paths as f64;
+        let n = catches.len() as f64;
+        let share = *paths as f64 / self.bandwidth.paths as f64;
         Measured {
             spots: sums.iter().zip(spots).map(|(sum, spot)| sum.rungs(n, share, self.pixels(spot))).collect(),
             light: sums.iter().map(|s| s.value[0][0] / n).collect(),
@@ -209,20 +237,6 @@ impl Ladder<'_> {
     fn pixels(&self, spot: &Spot) -> f64 {
         let radius = f64::from(spot.radius * self.top / spot.seen.width(self.bandwidth.spec));
         std::f64::consts::PI * radius * radius
-    }
-    fn shoot(&self, world: &World, set: u64, radius: f32) -> RadiusMap {
-        let how = self.bandwidth;
-        let shower = Shower {
-            seed: how.seed,
-            domain: Domain::Prepare,
-            pass: u64::MAX - 64 - self.round * 64 - set,
-            first: 0,
-            paths: self.paths,
-            keep: how.keep,
-            limits: how.limits,
-        };
-        let catch = shower.shoot(world, how.source);
-        RadiusMap::new(&catch.positions, &catch.photons, radius)
     }
 
     /// Gathers with all rungs from the photons within the top one.

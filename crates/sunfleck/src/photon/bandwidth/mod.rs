@@ -23,7 +23,7 @@ use crate::{
 };
 use glam::Vec2;
 pub use ladder::{CANDIDATES, Rung, Rungs};
-use ladder::{Ladder, STEP};
+use ladder::{Ladder, STEP, Sets};
 use spots::Spots;
 
 /// What a training of radii needs.
@@ -121,8 +121,9 @@ const WIDTHS: [f32; 2] = [1.0, 8.0];
 /// The widest it can try: at most so many, and in small pictures this part of the shorter side.
 const WIDEST: f32 = 32.0;
 const PART: f32 = 1.0 / 16.0;
-/// Light paths of a set: at least, and in the fit this part of a pass.
+/// Light paths of a set: at least, at most, and in the fit this part of a pass.
 const LEAST: u64 = 4096;
+const MOST: u64 = 1 << 19;
 const SHARE: u64 = 4;
 
 impl Fitted {
@@ -143,12 +144,15 @@ impl Bandwidth<'_> {
     /// the search for them begins. A function of scene, settings and `start`.
     pub fn fit(&self, scene: &Scene, start: Radii) -> Fitted {
         let world = &scene.world(Wavelengths::Rgb, MID_SHUTTER);
-        let factor = self.search(world, &start);
+        let (factor, mut sets) = self.search(world, &start);
         let radii = start.scaled(factor);
         let spots = Spots::every_tile(world, &radii, self, SPOTS);
-        let paths = self.paths.div_ceil(SHARE).max(LEAST);
-        let ladder = Ladder { bandwidth: self, top: STEP, paths, sets: SETS[1], round: MOVES };
-        let measured = ladder.climb(world, &radii, &spots);
+        if sets.paths < self.usual() {
+            sets = Sets::shoot(self, world, SETS[1], self.usual());
+        }
+        sets.add(self, world, SETS[1]);
+        let ladder = Ladder { bandwidth: self, top: STEP, sets: &sets };
+        let measured = ladder.climb(&radii, &spots);
         let ladders = std::array::from_fn(|family| {
             let mut sums = vec![Rungs::default(); radii.len()];
             for (spot, rungs) in spots.iter().zip(&measured.spots) {
@@ -160,19 +164,23 @@ impl Bandwidth<'_> {
         Fitted { radii, ladders, factors: std::array::from_fn(|rung| ladder.factor(rung)) }
     }
 
-    /// The factor over `radii` that is best for the picture as a whole.
-    fn search(&self, world: &World, radii: &Radii) -> f32 {
+    /// Light paths of a set, if they find enough.
+    fn usual(&self) -> u64 {
+        self.paths.div_ceil(SHARE).clamp(LEAST, MOST)
+    }
+    /// The factor over `radii` that is best for the picture as a whole, and the photons that told.
+    fn search(&self, world: &World, radii: &Radii) -> (f32, Sets) {
         let spots = Spots::some(world, radii, self, SEARCHED);
         let after = After::new(PASSES, self.schedule);
-        let Some(width) = Spots::typical_width(&spots, self.spec) else { return 1.0 };
+        let mut sets = Sets::shoot(self, world, SETS[0], LEAST);
+        let Some(width) = Spots::typical_width(&spots, self.spec) else { return (1.0, sets) };
         let side = self.spec.width.min(self.spec.height) as f32;
         let widest = (PART * side).clamp(WIDTHS[0], WIDEST) / width;
         let mut factor = (width.clamp(WIDTHS[0], WIDTHS[1]) / width).min(widest);
-        let mut paths = LEAST;
-        for round in 0..MOVES {
-            let ladder = Ladder { bandwidth: self, top: factor * STEP, paths, sets: SETS[0], round };
-            let measured = ladder.climb(world, radii, &spots);
-            let in_a_pass = measured.found * self.paths as f64 / paths as f64;
+        for _ in 0..MOVES {
+            let ladder = Ladder { bandwidth: self, top: factor * STEP, sets: &sets };
+            let measured = ladder.climb(radii, &spots);
+            let in_a_pass = measured.found * self.paths as f64 / sets.paths as f64;
             if in_a_pass < ENOUGH {
                 // Too narrow to find much, whatever the blur.
                 if factor == widest {
@@ -182,8 +190,14 @@ impl Bandwidth<'_> {
                 continue;
             }
             if measured.found < ENOUGH {
-                paths = ((2.0 * ENOUGH / in_a_pass * self.paths as f64) as u64).clamp(paths, self.paths);
-                continue;
+                // Those that the fit wants anyway, if they will do.
+                let enough = (ENOUGH / in_a_pass * self.paths as f64) as u64;
+                let more = if enough <= self.usual() { self.usual() } else { enough + enough / 4 };
+                let paths = more.min(self.paths).min(MOST);
+                if paths > sets.paths {
+                    sets = Sets::shoot(self, world, SETS[0], paths);
+                    continue;
+                }
             }
             let sum = measured.relative();
             let rung = sum.least(|rung| after.of(rung.error, rung.pixels));
@@ -193,6 +207,6 @@ impl Bandwidth<'_> {
                 break;
             }
         }
-        factor
+        (factor, sets)
     }
 }

@@ -1,6 +1,6 @@
 use super::{
     Bandwidth,
-    ladder::{CANDIDATES, Ladder, STEP},
+    ladder::{CANDIDATES, Ladder, STEP, Sets},
     spots::Spots,
 };
 use crate::{
@@ -51,8 +51,9 @@ fn the_bias_under_a_point_light_is_that_of_the_integral_over_the_kernel() {
     };
     let radii = Radii::fixed(0.8);
     let spots = Spots::every_tile(world, &radii, &how, 4);
-    let ladder = Ladder { bandwidth: &how, top: 1.0, paths: 100_000, sets: 16, round: 0 };
-    let measured = ladder.climb(world, &radii, &spots);
+    let sets = Sets::shoot(&how, world, 16, 100_000);
+    let ladder = Ladder { bandwidth: &how, top: 1.0, sets: &sets };
+    let measured = ladder.climb(&radii, &spots);
     // Radiance of 0.5 / π under an irradiance of 1.
     let radiance = 0.5 / std::f64::consts::PI;
     for spot in &measured.spots {
