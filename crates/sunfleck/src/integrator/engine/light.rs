@@ -63,6 +63,13 @@ impl Subpaths {
         let photon = 2 * (size_of::<Photon>() + size_of::<Vec3>()) + 20;
         self.photons.len() * photon + self.vertices.iter().map(Vertices::bytes).sum::<usize>()
     }
+    /// The photons among them that `merge` gathers, without vertices for connections.
+    pub(super) fn gathered_by(&self, merge: Merge) -> Self {
+        let taken = |p: &Photon| merge.takes(u32::from(p.scatterings), p.caustic);
+        let both = self.positions.iter().zip(&self.photons).filter(|(_, p)| taken(p));
+        let (positions, photons) = both.map(|(at, p)| (*at, *p)).unzip();
+        Self { positions, photons, vertices: Vec::new() }
+    }
     /// The vertices of path `i`, and what they are among.
     #[inline]
     pub(super) fn path(&self, i: usize) -> (&Vertices, &[LightVertex]) {

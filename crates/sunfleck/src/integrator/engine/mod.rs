@@ -294,30 +294,33 @@ impl Prepared<'_> {
 
     fn render(&self, job: &Job, image: &mut PassImage) {
         let world = self.scene.world(job.pass.lambda, job.pass.time);
+        let shrink = self.engine.schedule.radius(job.pass.index);
+        let subpaths = self.walk_light(job, &world, self.rule(job.count()), shrink, image);
+        self.look(job, &world, subpaths, &self.radii, image);
+    }
+
+    /// Camera paths, which meet `subpaths`.
+    fn look(&self, job: &Job, world: &World, subpaths: Subpaths, radii: &Radii, image: &mut PassImage) {
         let rule = self.rule(job.count());
         let shrink = self.engine.schedule.radius(job.pass.index);
-        let subpaths = self.walk_light(job, &world, rule, shrink, image);
-        let map = rule
-            .on
-            .merge
-            .is_on()
-            .then(|| RadiusMap::new(&subpaths.positions, &subpaths.photons, self.radii.typical() * shrink));
+        let gathers = rule.on.merge.is_on();
+        let map = gathers.then(|| RadiusMap::new(&subpaths.positions, &subpaths.photons, radii.typical() * shrink));
         let eye = Eye {
-            world: &world,
+            world,
             rule,
             source: &self.source,
             limits: self.engine.limits,
             kernel: self.engine.kernel,
             map,
             subpaths,
-            radii: &self.radii,
+            radii,
             shrink,
             plan: job.plan,
             only: job.only,
         };
         let spec = image.spec();
         image.fill(|x, y, counts| {
-            let mut ray = EyeRay::new(&world, spec, &job.pass, job.sample, (x, y));
+            let mut ray = EyeRay::new(world, spec, &job.pass, job.sample, (x, y));
             let start = EyeStart {
                 raster: ray.raster,
                 from: ray.camera.ray.o,
@@ -325,8 +328,8 @@ impl Prepared<'_> {
                 partner: job.partner(x + y * spec.width),
             };
             let mut look = Look::new(&eye, start, counts);
-            let (limits, start_ray) = (&self.engine.limits, ray.start(&world));
-            let rays = walk(&world, &start_ray, limits, &mut ray.sampler, &mut look);
+            let (limits, start_ray) = (&self.engine.limits, ray.start(world));
+            let rays = walk(world, &start_ray, limits, &mut ray.sampler, &mut look);
             look.add_lamps(&mut ray.sampler);
             look.finish(rays).to_rgb(job.pass.lambda) * (job.share * ray.weight)
         });

@@ -10,7 +10,7 @@
 use super::{
     super::{Prepared, techniques::Merge},
     Plan,
-    trial::{self, SHARE, Trial},
+    trial::{self, SHARE, Trial, Way},
 };
 use crate::{
     film::FilmSpec,
@@ -227,7 +227,10 @@ impl Plan {
     /// judged by their noise, as if they did not blur. The look is too short to count beside a picture.
     pub(in super::super) fn needs_no_photons(prepared: &mut Prepared, spec: FilmSpec, seed: u64) -> bool {
         let glance = trial::small(spec, GLANCE);
-        let trials = [Merge::Caustic, Merge::First].map(|m| Self::everywhere(spec, m).try_out(prepared, glance, seed));
+        let radii = &prepared.radii;
+        let ways = [Merge::Caustic, Merge::First]
+            .map(|merge| Way { plan: Self::everywhere(spec, merge), radii: radii.clone() });
+        let trials = trial::try_out(&ways, prepared, glance, seed);
         let light = prepared.paths as f64 / spec.pixels() as f64 * trials[1].path;
         let after = After::new(bandwidth::PASSES, prepared.engine.schedule);
         let choice = Choice::new(&trials, None, after, Self::everywhere(spec, Merge::Off), light);
@@ -243,13 +246,12 @@ impl Plan {
     pub(in super::super) fn train(prepared: &mut Prepared, fitted: Option<&Fitted>, spec: FilmSpec, seed: u64) {
         let small = trial::small(spec, PIXELS);
         let after = After::new(bandwidth::PASSES, prepared.engine.schedule);
-        let mut try_out = |merge: Merge, family: usize| {
-            if let Some(f) = fitted {
-                prepared.radii = f.by(|tile, _| f.best(family, tile, after));
-            }
-            Self::everywhere(spec, merge).try_out(prepared, small, seed)
-        };
-        let trials = [try_out(Merge::Caustic, 1), try_out(Merge::First, 0)];
+        let ways = [(Merge::Caustic, 1), (Merge::First, 0)].map(|(merge, family)| {
+            let best = |f: &Fitted| f.by(|tile, _| f.best(family, tile, after));
+            Way { plan: Self::everywhere(spec, merge), radii: fitted.map_or(prepared.radii.clone(), best) }
+        });
+        let trials = trial::try_out(&ways, prepared, small, seed);
+        prepared.radii = ways[1].radii.clone();
         let mut plan = Self::everywhere(spec, Merge::Caustic);
         let caustics = plan.finds_photons(prepared, small, seed);
         let light = prepared.paths as f64 / spec.pixels() as f64 * trials[1].path;

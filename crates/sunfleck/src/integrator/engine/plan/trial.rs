@@ -6,6 +6,7 @@ use super::{
 use crate::{
     film::{Counts, FilmSpec, Filter, PassImage},
     integrator::Pass,
+    photon::Radii,
     spectrum::Rgb,
 };
 
@@ -43,48 +44,83 @@ pub(super) fn small(spec: FilmSpec, pixels: f64) -> FilmSpec {
     FilmSpec { width: shrunk(spec.width), height: shrunk(spec.height), filter: Filter::Middle }
 }
 
-impl Plan {
-    /// Renders a few passes of a picture of `spec` by this plan.
-    pub(super) fn try_out(&self, prepared: &Prepared, spec: FilmSpec, seed: u64) -> Trial {
-        let pixels = spec.pixels();
-        let (mut sums, mut squares) = (vec![0.0f64; pixels], vec![0.0f64; pixels]);
-        let tile_of = |i: usize| {
-            let (x, y) = (i % spec.width as usize, i / spec.width as usize);
-            y * self.rows / spec.height as usize * self.columns + x * self.columns / spec.width as usize
-        };
-        let mut tiles = vec![(Seen::default(), 0.0f64); self.tiles.len()];
-        let mut counts = Counts::default();
-        let mut image = PassImage::new(spec);
-        for index in 0..PASSES {
-            image.clear();
-            prepared.render(&self.job(prepared, seed, index), &mut image);
-            for (i, p) in image.pixels().iter().enumerate() {
-                let v = f64::from(p.element_sum()) / 3.0;
-                sums[i] += v;
-                squares[i] += v * v;
-                tiles[tile_of(i)].0.passes[index as usize] += v;
-            }
-            counts += image.counts;
+/// A way to render: what is merged, with which radii.
+pub(super) struct Way {
+    pub(super) plan: Plan,
+    pub(super) radii: Radii,
+}
+
+/// Sums over the training passes of one way.
+struct Tally {
+    sums: Vec<f64>,
+    squares: Vec<f64>,
+    /// Number of the tile that each pixel is in.
+    tile_of: Vec<usize>,
+    tiles: Vec<Seen>,
+    rays: u64,
+}
+
+impl Tally {
+    fn new(plan: &Plan, spec: FilmSpec) -> Self {
+        let (width, height) = (spec.width as usize, spec.height as usize);
+        let tile_of = |i: usize| i / width * plan.rows / height * plan.columns + i % width * plan.columns / width;
+        let zeros = vec![0.0; spec.pixels()];
+        let (tile_of, tiles) = ((0..spec.pixels()).map(tile_of).collect(), vec![Seen::default(); plan.tiles.len()]);
+        Self { sums: zeros.clone(), squares: zeros, tile_of, tiles, rays: 0 }
+    }
+    fn add(&mut self, index: u64, image: &PassImage) {
+        for (i, p) in image.pixels().iter().enumerate() {
+            let v = f64::from(p.element_sum()) / 3.0;
+            self.sums[i] += v;
+            self.squares[i] += v * v;
+            self.tiles[self.tile_of[i]].passes[index as usize] += v;
         }
+        self.rays += image.counts.rays;
+    }
+    /// `path`: mean cost of a light path.
+    fn finish(mut self, path: f64) -> Trial {
         let n = PASSES as f64;
-        for i in 0..pixels {
-            let (seen, count) = &mut tiles[tile_of(i)];
-            seen.mean += sums[i] / n;
-            seen.variance += ((squares[i] - sums[i] * sums[i] / n) / (n - 1.0)).max(0.0);
-            *count += 1.0;
+        let mut pixels = vec![0.0f64; self.tiles.len()];
+        for ((sum, square), &tile) in self.sums.iter().zip(&self.squares).zip(&self.tile_of) {
+            let seen = &mut self.tiles[tile];
+            seen.mean += sum / n;
+            seen.variance += ((square - sum * sum / n) / (n - 1.0)).max(0.0);
+            pixels[tile] += 1.0;
         }
-        let mean = |(s, n): (Seen, f64)| Seen {
-            mean: s.mean / n.max(1.0),
-            variance: s.variance / n.max(1.0),
-            samples: n * PASSES as f64,
-            passes: s.passes.map(|sum| sum / n.max(1.0)),
-        };
-        Trial {
-            tiles: tiles.into_iter().map(mean).collect(),
-            pixel: (counts.rays - counts.light_rays) as f64 / (n * pixels as f64),
-            path: counts.light_rays as f64 / counts.emitted.max(1) as f64,
+        for (seen, n) in self.tiles.iter_mut().zip(pixels) {
+            seen.mean /= n.max(1.0);
+            seen.variance /= n.max(1.0);
+            seen.samples = n * PASSES as f64;
+            seen.passes = seen.passes.map(|sum| sum / n.max(1.0));
+        }
+        Trial { pixel: self.rays as f64 / (n * self.sums.len() as f64), tiles: self.tiles, path }
+    }
+}
+
+/// Renders a few passes of a picture of `spec` by each of two ways. Both meet the same light paths; the second needs all photons
+/// that the first one does.
+pub(super) fn try_out(ways: &[Way; 2], prepared: &Prepared, spec: FilmSpec, seed: u64) -> [Trial; 2] {
+    let mut tallies = ways.each_ref().map(|way| Tally::new(&way.plan, spec));
+    let mut image = PassImage::new(spec);
+    let mut light = Counts::default();
+    for index in 0..PASSES {
+        let [first, second] = ways.each_ref().map(|way| way.plan.job(prepared, seed, index));
+        let world = prepared.scene.world(second.pass.lambda, second.pass.time);
+        let shrink = prepared.engine.schedule.radius(index);
+        image.clear();
+        let all = prepared.walk_light(&second, &world, prepared.rule(second.count()), shrink, &mut image);
+        light += image.counts;
+        let some = all.gathered_by(ways[0].plan.needs());
+        for (i, (job, subpaths)) in [(first, some), (second, all)].into_iter().enumerate() {
+            image.clear();
+            prepared.look(&job, &world, subpaths, &ways[i].radii, &mut image);
+            tallies[i].add(index, &image);
         }
     }
+    tallies.map(|tally| tally.finish(light.light_rays as f64 / light.emitted.max(1) as f64))
+}
+
+impl Plan {
     /// Whether gathers by this plan find any photon.
     pub(super) fn finds_photons(&self, prepared: &Prepared, spec: FilmSpec, seed: u64) -> bool {
         let mut image = PassImage::new(spec);
