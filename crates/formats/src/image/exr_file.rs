@@ -5,9 +5,10 @@ use super::{ImageFile, ImageFormat, RgbImage32, Tone, check_size};
 use exr::meta::MetaData;
 use exr::meta::attribute::{AttributeValue, Text};
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatImage, FlatSamples, Image, Layer, LayerAttributes, WritableImage,
+    AnyChannel, AnyChannels, Encoding, FlatImage, FlatSamples, Image, ImageAttributes, Layer, LayerAttributes, Vec2,
+    WritableImage,
 };
-use exr::prelude::{ReadChannels, ReadLayers, SmallVec};
+use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, SmallVec};
 use std::io::Cursor;
 
 pub(super) const FORMAT: ImageFormat = ImageFormat {
@@ -26,7 +27,9 @@ const PREFIX: &str = "sunfleck:";
 const MAX_CHANNELS: usize = 1024;
 
 fn read(bytes: &[u8]) -> Result<ImageFile, String> {
-    check_header(bytes)?;
+    if is_plain(&check_header(bytes)?) {
+        return read_plain(bytes);
+    }
     let image: FlatImage = exr::prelude::read()
         .no_deep_data()
         .largest_resolution_level()
@@ -35,7 +38,7 @@ fn read(bytes: &[u8]) -> Result<ImageFile, String> {
         .all_attributes()
         .from_buffered(Cursor::new(bytes))
         .map_err(|e| e.to_string())?;
-    let metadata = metadata(&image);
+    let metadata = metadata(&image.attributes, image.layer_data.iter().map(|part| &part.attributes));
     let mut pictures = Vec::new();
     let many_parts = image.layer_data.len() > 1;
     for part in image.layer_data {
@@ -56,7 +59,37 @@ fn read(bytes: &[u8]) -> Result<ImageFile, String> {
     Ok(ImageFile { image, layers, metadata, ..ImageFile::default() })
 }
 
-fn check_header(bytes: &[u8]) -> Result<(), String> {
+/// Whether it holds one picture and nothing else but an opacity.
+fn is_plain(meta: &MetaData) -> bool {
+    let [part] = &meta.headers[..] else { return false };
+    let is = |name: &str| part.channels.list.iter().any(|c| c.name == *name && c.sampling == Vec2(1, 1));
+    let known = 3 + usize::from(is("A"));
+    !part.deep && is("R") && is("G") && is("B") && part.channels.list.len() == known
+}
+
+/// Reads a picture that [`is_plain`], block by block into its place: a panorama should not be in memory twice.
+fn read_plain(bytes: &[u8]) -> Result<ImageFile, String> {
+    let canvas = |size: Vec2<usize>, _: &_| RgbImage32::filled(size.width() as u32, size.height() as u32, [0.0; 3]);
+    let draw = |image: &mut RgbImage32, at: Vec2<usize>, (r, g, b): (f32, f32, f32)| {
+        image.data[at.y() * image.width as usize + at.x()] = [r, g, b];
+    };
+    let read = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .specific_channels()
+        .required("R")
+        .required("G")
+        .required("B")
+        .collect_pixels(canvas, draw)
+        .first_valid_layer()
+        .all_attributes()
+        .from_buffered(Cursor::new(bytes))
+        .map_err(|e| e.to_string())?;
+    let metadata = metadata(&read.attributes, std::iter::once(&read.layer_data.attributes));
+    Ok(ImageFile { image: read.layer_data.channel_data.pixels, metadata, ..ImageFile::default() })
+}
+
+fn check_header(bytes: &[u8]) -> Result<MetaData, String> {
     let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).map_err(|e| e.to_string())?;
     let channels: usize = meta.headers.iter().map(|h| h.channels.list.len()).sum();
     if channels > MAX_CHANNELS {
@@ -69,12 +102,15 @@ fn check_header(bytes: &[u8]) -> Result<(), String> {
         stored = stored.saturating_add(width.saturating_mul(height).saturating_mul(2 * channels));
         check_size(width, height, stored, bytes.len())?;
     }
-    Ok(())
+    Ok(meta)
 }
 
-fn metadata(image: &FlatImage) -> Vec<(String, String)> {
-    let shared = image.attributes.other.iter();
-    let of_parts = image.layer_data.iter().flat_map(|part| &part.attributes.other);
+fn metadata<'a>(
+    shared: &'a ImageAttributes,
+    parts: impl Iterator<Item = &'a LayerAttributes>,
+) -> Vec<(String, String)> {
+    let shared = shared.other.iter();
+    let of_parts = parts.flat_map(|part| &part.other);
     let mut all: Vec<(String, String)> = shared
         .chain(of_parts)
         .filter_map(|(name, value)| {

@@ -2,7 +2,7 @@
 
 use super::{ImageFile, ImageFormat, RgbImage32, Tone, check_size};
 use image::codecs::hdr::{HdrDecoder, HdrEncoder};
-use image::{DynamicImage, ImageDecoder, Rgb};
+use image::{ImageDecoder, Rgb};
 use std::io::Cursor;
 
 pub(super) const FORMAT: ImageFormat = ImageFormat {
@@ -18,8 +18,8 @@ fn read(bytes: &[u8]) -> Result<ImageFile, String> {
     let decoder = HdrDecoder::new(Cursor::new(bytes)).map_err(|e| e.to_string())?;
     let (width, height) = decoder.dimensions();
     check_size(width.into(), height.into(), u64::from(width) * u64::from(height) * 4, bytes.len())?;
-    let pixels = DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?.into_rgb32f();
-    let data = pixels.pixels().map(|p| p.0).collect();
+    let mut data = vec![[0.0f32; 3]; width as usize * height as usize];
+    decoder.read_image(bytemuck::cast_slice_mut(&mut data)).map_err(|e| e.to_string())?;
     Ok(RgbImage32 { width, height, data }.into())
 }
 

@@ -164,6 +164,37 @@ fn forged_sizes_are_refused_before_memory_is_reserved() {
 }
 
 #[test]
+fn a_plain_exr_is_read_where_its_window_begins_and_as_the_same_picture_with_a_layer() {
+    use exr::prelude::{Image, Layer, LayerAttributes, SpecificChannels, Vec2, WritableImage};
+    let image = gradient(9, 5);
+    for kind in ["float", "half"] {
+        let pixel = |at: Vec2<usize>| image.pixel(at.x() as u32, at.y() as u32);
+        let attributes = LayerAttributes { layer_position: Vec2(-3, 7), ..LayerAttributes::named("main") };
+        let mut bytes = Vec::new();
+        let out = std::io::Cursor::new(&mut bytes);
+        let (size, encoding) = ((9, 5), exr::prelude::Encoding::FAST_LOSSLESS);
+        let written = if kind == "float" {
+            let channels = SpecificChannels::rgb(|at: Vec2<usize>| <(f32, f32, f32)>::from(pixel(at)));
+            Image::from_layer(Layer::new(size, attributes, encoding, channels)).write().to_buffered(out)
+        } else {
+            let channels =
+                SpecificChannels::rgb(|at: Vec2<usize>| <(_, _, _)>::from(pixel(at).map(exr::prelude::f16::from_f32)));
+            Image::from_layer(Layer::new(size, attributes, encoding, channels)).write().to_buffered(out)
+        };
+        written.unwrap();
+        let back = read_image_bytes("a.exr", &bytes).unwrap().image;
+        assert_eq!((back.width, back.height), (9, 5));
+        for (a, b) in image.data.iter().flatten().zip(back.data.iter().flatten()) {
+            assert!((a - b).abs() <= if kind == "float" { 0.0 } else { a.abs() / 2048.0 }, "{kind}: {a} {b}");
+        }
+    }
+    let mut layered = ImageFile::from(image.clone());
+    layered.layers.push(("more".to_owned(), image.clone()));
+    let bytes = FORMATS[0].write.unwrap()(&layered, Tone::Srgb).unwrap();
+    assert_eq!(read_image_bytes("a.exr", &bytes).unwrap().image, image);
+}
+
+#[test]
 fn a_file_that_is_no_picture_is_told_so() {
     insta::assert_snapshot!("no_picture", read_image_bytes("a.exr", b"Begin Material\n").unwrap_err().to_string());
     insta::assert_snapshot!("cut_pfm", read_image_bytes("a.pfm", b"PF\n2 2\n-1\n0000").unwrap_err().to_string());

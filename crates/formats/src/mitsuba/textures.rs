@@ -237,9 +237,14 @@ impl Importer<'_, '_> {
             file = file.undo_srgb();
         }
         let (width, height) = (file.image.width as usize, file.image.height as usize);
-        let rows = file.image.data.chunks_exact(width).rev().flatten();
+        let mut data = file.image.data;
+        for y in 0..height / 2 {
+            let (above, below) = data.split_at_mut((height - 1 - y) * width);
+            above[y * width..(y + 1) * width].swap_with_slice(&mut below[..width]);
+        }
         let flipped = |[r, g, b]: [f32; 3]| if key.is_flipped { [r, 1.0 - g, b] } else { [r, g, b] };
-        let pixels = rows.map(|p| Vec3::from_array(flipped(*p))).collect();
+        // In place: a large picture should not be in memory twice.
+        let pixels = data.into_iter().map(|p| Vec3::from_array(flipped(p))).collect();
         let [across, down] = key.wrap.map(wrap_of);
         let texture = ImageTexture::new(width, height, pixels, across);
         let texture = texture.ok_or_else(|| Box::new(Diagnostic::error("mitsuba::picture", "the picture is empty")))?;

@@ -209,7 +209,7 @@ fn read_texture(path: &Path, scale: Vec3, role: Role, place: Place, target: &mut
     match read {
         Ok(image) => {
             let most = Vec3::splat(if role == Role::Light { f32::MAX } else { 1.0 });
-            let pixels = image.data.iter().map(|p| Vec3::from_array(*p).clamp(Vec3::ZERO, most) * scale).collect();
+            let pixels = image.data.into_iter().map(|p| Vec3::from_array(p).clamp(Vec3::ZERO, most) * scale).collect();
             ImageTexture::new(image.width as usize, image.height as usize, pixels, Wrap::Repeat)
         }
         Err(error) => {

@@ -34,6 +34,7 @@ pub(super) fn panorama(image: RgbImage32, is_version_4: bool) -> Result<(ImageTe
             pixels.push(octahedral(&texture, place));
         }
     }
+    drop(texture);
     let map = ImageTexture::new(columns, rows, pixels, Wrap::Repeat).ok_or("it is empty")?;
     Ok((map, light_from_map))
 }

@@ -232,11 +232,11 @@ impl Importer<'_> {
         let Some((image, _)) = self.picture_file(params, "normalmap", "left out")? else { return Ok(None) };
         // The numbers as they are stored.
         let is_encoded = !holds_floats(params.string("normalmap")?.unwrap_or_default());
-        let stored = |p: &[f32; 3]| {
-            let v = Vec3::from_array(*p);
+        let stored = |p: [f32; 3]| {
+            let v = Vec3::from_array(p);
             if is_encoded { v.map(srgb_from_linear) } else { v }
         };
-        let pixels = image.data.iter().map(stored).collect();
+        let pixels = image.data.into_iter().map(stored).collect();
         let texture = ImageTexture::new(image.width as usize, image.height as usize, pixels, Wrap::Repeat);
         Ok(texture.map(|t| self.target.builder().texture(Texture::Image(t))))
     }
@@ -261,12 +261,12 @@ impl Importer<'_> {
             decoder(&encoding).ok_or_else(|| params.misfit("encoding", "`sRGB`, `linear` or `gamma` and a number"))?;
         // Files of floats hold linear values, whatever is said.
         let is_encoded = !holds_floats(params.string("filename")?.unwrap_or_default());
-        let value = |p: &[f32; 3]| {
-            let v = Vec3::from_array(*p);
+        let value = |p: [f32; 3]| {
+            let v = Vec3::from_array(p);
             let v = if is_encoded { v.map(&decode) } else { v };
             scale * if invert { (Vec3::ONE - v).max(Vec3::ZERO) } else { v }
         };
-        let pixels: Vec<Vec3> = image.data.iter().map(value).collect();
+        let pixels: Vec<Vec3> = image.data.into_iter().map(value).collect();
         let texture = ImageTexture::new(image.width as usize, image.height as usize, pixels, wrap);
         let Some(texture) = texture.map(|t| t.with_wrap(wrap, wrapv)) else { return Ok(self.constant(MISSING)) };
         let mean = texture.mean();

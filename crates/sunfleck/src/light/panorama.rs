@@ -31,7 +31,7 @@ pub(super) struct Panorama {
 
 impl Panorama {
     pub(super) fn new(image: ImageTexture, world_from_map: Mat3) -> Self {
-        let image = image.with_wrap(Wrap::Repeat, Wrap::Clamp);
+        let image = image.rounded().with_wrap(Wrap::Repeat, Wrap::Clamp);
         let (columns, steps_x) = cells(image.width(), MIN_CELLS[0], MAX_CELLS[0]);
         let (rows, steps_y) = cells(image.height(), MIN_CELLS[1], MAX_CELLS[1]);
         let edges: Vec<f64> = (0..=rows).map(|y| (std::f64::consts::PI * y as f64 / rows as f64).cos()).collect();

@@ -1,6 +1,7 @@
 //! A picture as a texture, with bilinear filtering.
+use super::pixels::Pixels;
 use crate::spectrum::Rgb;
-use glam::{Vec2, Vec3};
+use glam::Vec2;
 
 /// What lies outside the unit square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -14,12 +15,15 @@ pub enum Wrap {
     Mirror,
 }
 
+/// Pictures with fewer pixels are not worth rounding.
+const LARGE: usize = 1 << 20;
+
 /// Linear RGB pixels; `v = 0` is the bottom edge, as in OBJ files, and rows are stored from the top.
 #[derive(Clone, Debug)]
 pub struct ImageTexture {
     width: usize,
     height: usize,
-    pixels: Vec<Rgb>,
+    pixels: Pixels,
     /// Across, then down.
     wrap: [Wrap; 2],
 }
@@ -27,12 +31,29 @@ pub struct ImageTexture {
 impl ImageTexture {
     /// Takes row-major linear pixels, top row first. `None` unless there are `width * height` > 0 of them.
     pub fn new(width: usize, height: usize, pixels: Vec<Rgb>, wrap: Wrap) -> Option<Self> {
-        (width > 0 && height > 0 && width.checked_mul(height)? == pixels.len()).then_some(Self {
+        (width > 0 && height > 0 && width.checked_mul(height)? == pixels.len()).then(|| Self {
             width,
             height,
-            pixels,
+            pixels: Pixels::new(pixels),
             wrap: [wrap; 2],
         })
+    }
+    /// The same picture in half the memory, if it has 2²⁰ pixels or more that cannot be kept in less without a change: rounded
+    /// to half floats times a power of two. A value `x` moves by at most 2⁻¹¹ `|x|`, and one of less than 2⁻²⁸ of the largest
+    /// by at most 2⁻³⁹ of that.
+    pub fn rounded(self) -> Self {
+        match &self.pixels {
+            Pixels::Full(p) if p.len() >= LARGE => match Pixels::rounded(p) {
+                Some(pixels) => Self { pixels, ..self },
+                None => self,
+            },
+            _ => self,
+        }
+    }
+    /// Memory (bytes) that the pixels take: 1 each for grey 8-bit files, 3 for others of 8 bits, 4 for Radiance pictures, 6 for
+    /// half floats and 12 for the rest.
+    pub fn bytes(&self) -> usize {
+        self.pixels.bytes()
     }
     /// Continues the picture differently across and down.
     pub fn with_wrap(self, across: Wrap, down: Wrap) -> Self {
@@ -52,11 +73,11 @@ impl ImageTexture {
     }
     /// Pixel in column `x` of row `y`, the top row being 0.
     pub fn pixel(&self, x: usize, y: usize) -> Rgb {
-        self.pixels[y * self.width + x]
+        self.pixels.get(y * self.width + x)
     }
     /// Mean of all pixels.
     pub fn mean(&self) -> Rgb {
-        let sum = self.pixels.iter().fold(glam::DVec3::ZERO, |s, p| s + p.as_dvec3());
+        let sum = (0..self.pixels.len()).fold(glam::DVec3::ZERO, |s, i| s + self.pixels.get(i).as_dvec3());
         (sum / self.pixels.len() as f64).as_vec3()
     }
     /// Bilinear interpolation between the four nearest pixel centres. Broken coordinates give the lower left corner.
@@ -65,13 +86,9 @@ impl ImageTexture {
         let p = Vec2::new(uv.x * self.width as f32 - 0.5, (1.0 - uv.y) * self.height as f32 - 0.5);
         let p = if p.is_finite() { p } else { Vec2::new(-0.5, self.height as f32 - 0.5) };
         let cell = p.floor();
-        let f = p - cell;
-        let at = |dx: i64, dy: i64| -> Vec3 {
-            let x = self.wrap[0].index((cell.x as i64).saturating_add(dx), self.width);
-            let y = self.wrap[1].index((cell.y as i64).saturating_add(dy), self.height);
-            self.pixels[y * self.width + x]
-        };
-        at(0, 0).lerp(at(1, 0), f.x).lerp(at(0, 1).lerp(at(1, 1), f.x), f.y)
+        let x = [0, 1].map(|d| self.wrap[0].index((cell.x as i64).saturating_add(d), self.width));
+        let row = [0, 1].map(|d| self.width * self.wrap[1].index((cell.y as i64).saturating_add(d), self.height));
+        self.pixels.blend([row[0] + x[0], row[0] + x[1], row[1] + x[0], row[1] + x[1]], p - cell)
     }
 }
 
@@ -94,6 +111,7 @@ impl Wrap {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::Vec3;
 
     fn two_by_two(wrap: Wrap) -> ImageTexture {
         ImageTexture::new(2, 2, [0.0, 1.0, 2.0, 3.0].map(Vec3::splat).to_vec(), wrap).unwrap()

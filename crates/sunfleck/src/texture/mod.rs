@@ -6,6 +6,7 @@ mod checks;
 mod compose;
 mod image;
 mod noise;
+mod pixels;
 mod value;
 
 pub use checks::{Checkerboard, Dots};
