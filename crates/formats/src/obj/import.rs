@@ -5,6 +5,7 @@ use super::{Corner, ObjFile, ObjMesh, parse, read_libraries};
 use crate::diagnostic::{Diagnostic, Error, Sink, SourceFile};
 use crate::load::{LoadOptions, SceneFormat, Target};
 use crate::ply::PlyMesh;
+use foldhash::fast::RandomState;
 use glam::{Vec2, Vec3};
 use std::collections::HashMap;
 use std::path::Path;
@@ -120,7 +121,7 @@ struct Vertices<'t> {
     /// Whether some corner has a normal; then those without take that of their triangle.
     has_normals: bool,
     has_uvs: bool,
-    index_of: HashMap<Corner, u32>,
+    index_of: HashMap<Corner, u32, RandomState>,
     positions: Vec<Vec3>,
     normals: Vec<Vec3>,
     uvs: Vec<Vec2>,
@@ -134,7 +135,8 @@ impl<'t> Vertices<'t> {
             tree,
             has_normals: corners.clone().any(|c| normal(tree, *c).is_some()),
             has_uvs: corners.any(|c| c.uv().is_some()),
-            index_of: HashMap::new(),
+            // In a closed mesh there are half as many vertices as triangles.
+            index_of: HashMap::with_capacity_and_hasher(mesh.triangles.len() / 2, RandomState::default()),
             positions: Vec::new(),
             normals: Vec::new(),
             uvs: Vec::new(),
