@@ -49,7 +49,7 @@ impl Model for CoatedConductorMaterial {
 
 /// [`Principled`] with a metal whose reflectance along the normal is exact, and Schlick's factor beyond.
 #[derive(Clone, Copy, Debug)]
-pub struct CoatedConductor(Principled);
+pub struct CoatedConductor(pub(super) Principled);
 
 impl Scatter for CoatedConductor {
     fn eval(&self, wo: Local, wi: Local, mode: Transport) -> Spectrum {

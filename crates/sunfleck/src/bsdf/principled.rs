@@ -265,6 +265,31 @@ impl Principled {
     }
 }
 
+/// The closure seen from `wo`.
+pub(super) struct Outlook<'p> {
+    of: &'p Principled,
+    wo: Local,
+    /// Unless `wo` lies in the surface.
+    view: Option<View>,
+}
+
+impl Principled {
+    pub(super) fn outlook(&self, wo: Local) -> Outlook<'_> {
+        let view = (seen_from(wo, wo).cos_theta() > 0.0).then(|| self.view(wo));
+        Outlook { of: self, wo, view }
+    }
+}
+
+impl Outlook<'_> {
+    pub(super) fn eval(&self, wi: Local) -> Spectrum {
+        let wi = seen_from(self.wo, wi);
+        match &self.view {
+            Some(view) if wi.cos_theta() > 0.0 => self.of.f(view, wi),
+            _ => Spectrum::BLACK,
+        }
+    }
+}
+
 /// Probabilities of the first two parts, in proportion to what each gives back. A part that gives anything is drawn at least
 /// sometimes.
 fn shares(coat: f32, gloss: f32, matt: f32) -> (f32, f32) {
@@ -280,11 +305,8 @@ fn shares(coat: f32, gloss: f32, matt: f32) -> (f32, f32) {
 
 impl Scatter for Principled {
     fn eval(&self, wo: Local, wi: Local, _: Transport) -> Spectrum {
-        let (up, wi) = (seen_from(wo, wo), seen_from(wo, wi));
-        if up.cos_theta() <= 0.0 || wi.cos_theta() <= 0.0 {
-            return Spectrum::BLACK;
-        }
-        self.f(&self.view(wo), wi)
+        // Most directions that are asked for from below carry nothing.
+        if wi.cos_theta() * wo.cos_theta() > 0.0 { self.outlook(wo).eval(wi) } else { Spectrum::BLACK }
     }
     fn pdf(&self, wo: Local, wi: Local) -> f32 {
         let (up, wi) = (seen_from(wo, wo), seen_from(wo, wi));

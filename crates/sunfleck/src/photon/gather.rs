@@ -6,7 +6,7 @@
 use super::{Kernel, NearestMap, Photon, RadiusMap};
 use crate::{
     bsdf::{Bsdf, Transport},
-    scene::{Interaction, NearSide},
+    scene::{Interaction, NearSide, TowardEye},
     spectrum::Spectrum,
 };
 use accel::Neighbours;
@@ -34,6 +34,7 @@ pub struct CameraEnd {
 /// Adds up what photons scatter toward the eye.
 struct Estimate<'i> {
     at: &'i Interaction,
+    eye: TowardEye<'i>,
     end: CameraEnd,
     /// Set where scattering is the same for all directions on the eye's side and none on the other, which is where most
     /// photons are gathered: only their flux needs summing.
@@ -47,7 +48,7 @@ impl<'i> Estimate<'i> {
     #[inline]
     fn new(at: &'i Interaction, end: CameraEnd) -> Self {
         let matt = matches!(at.bsdf, Bsdf::Diffuse(_)).then(|| at.near_side());
-        Self { at, end, matt, sum: Spectrum::BLACK, count: 0 }
+        Self { at, eye: at.toward_eye(), end, matt, sum: Spectrum::BLACK, count: 0 }
     }
     #[inline]
     fn add(&mut self, photon: &Photon, weight: f32) {
@@ -56,7 +57,7 @@ impl<'i> Estimate<'i> {
         }
         let weight = weight * Spectrum::join(self.end.dispersed, photon.dispersed);
         let Some(side) = &self.matt else {
-            let f = self.at.f_photon(photon.wi);
+            let f = self.eye.f_photon(photon.wi);
             self.count += u32::from(!f.is_black());
             self.sum += f * photon.flux * weight;
             return;

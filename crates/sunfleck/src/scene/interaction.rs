@@ -1,7 +1,7 @@
 //! A point where a path meets a surface, and everything that can be asked there.
 use super::{MaterialId, Surface, world::Even};
 use crate::{
-    bsdf::{Bsdf, BsdfSample, Lobes, Scatter, Transport, cover::Covered},
+    bsdf::{Bsdf, BsdfSample, Lobes, Outlook, Scatter, Transport, cover::Covered},
     light::{EmitterHit, LightEnd, LightId},
     math::{Frame, Local, Ray, offset_origin},
     medium::Medium,
@@ -82,6 +82,25 @@ impl NearSide {
     }
 }
 
+/// Scattering toward the eye.
+pub struct TowardEye<'i> {
+    at: &'i Interaction,
+    /// Unless the eye sees the surface from behind by one of the normals.
+    outlook: Option<Outlook<'i>>,
+}
+
+impl TowardEye<'_> {
+    /// See [`Interaction::f_photon`].
+    #[inline]
+    pub fn f_photon(&self, wi: Vec3) -> Spectrum {
+        let li = self.at.local(wi);
+        match &self.outlook {
+            Some(outlook) if self.at.sides_agree(wi, li) => outlook.eval(li) * self.at.cos_ratio(wi),
+            _ => Spectrum::BLACK,
+        }
+    }
+}
+
 impl Interaction {
     #[inline(always)]
     pub(super) fn new(s: &SurfacePoint, wo: Vec3, distance: f32, even: &Even, surface: &Surface) -> Self {
@@ -144,7 +163,14 @@ impl Interaction {
     /// the true surface, while scattering weighs them by the shading cosine.
     #[inline]
     pub fn f_photon(&self, wi: Vec3) -> Spectrum {
-        self.f(wi, Transport::Radiance) * self.cos_ratio(wi)
+        self.toward_eye().f_photon(wi)
+    }
+    /// For asking [`Interaction::f_photon`] of many photons.
+    #[inline]
+    pub fn toward_eye(&self) -> TowardEye<'_> {
+        let lo = self.local(self.wo);
+        let outlook = self.sides_agree(self.wo, lo).then(|| self.bsdf.outlook(lo));
+        TowardEye { at: self, outlook }
     }
     /// Shading cosine over true cosine of `wi`; zero in the plane of the true surface.
     #[inline]

@@ -13,7 +13,7 @@ mod surfaces;
 mod world;
 
 pub use build::{Quality, SceneBuilder, SceneError, SurfaceDef};
-pub use interaction::{Interaction, NearSide, Scattered};
+pub use interaction::{Interaction, NearSide, Scattered, TowardEye};
 pub use parts::{Instance, Parts};
 pub use principled::Transmission;
 pub use record::Record;

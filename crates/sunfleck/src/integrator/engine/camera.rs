@@ -297,11 +297,9 @@ impl Look<'_> {
         let unweighted = self.rule.on.merge.at_first_only() || eye.only.is_some_and(|o| !o.weighted);
         let end = CameraEnd { most, dispersed: a.dispersed };
         let (rule, eta) = (&self.rule, self.eta);
-        let value = gather(map, a.at, disc, end, |photon, at| match () {
-            () if !rule.gathers(photon.caustic) => 0.0,
-            () if unweighted => 1.0,
-            () => rule.merge_weight(sums, &photon.sums, u32::from(photon.scatterings), at, eta),
-        });
+        let weigh = |photon: &Photon, at| rule.merge_weight(sums, &photon.sums, u32::from(photon.scatterings), at, eta);
+        let takes = |photon: &Photon| rule.gathers(photon.caustic);
+        let value = gather(map, a.at, disc, end, takes, (!unweighted).then_some(&weigh));
         self.add(Technique::Merge, a.beta * value, 1.0);
     }
 }

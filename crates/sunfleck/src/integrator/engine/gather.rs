@@ -8,39 +8,44 @@ use crate::{
 };
 use std::f32::consts::{FRAC_1_PI, PI};
 
-/// Radiance that `at` scatters toward `at.wo` from the photons of the disc around it that were scattered at most
-/// [`CameraEnd::most`] times, each times its weight (see [`crate::photon::gather`] for the estimate).
+/// Radiance that `at` scatters toward `at.wo` from the photons of the disc around it that `takes` takes and that were scattered
+/// at most [`CameraEnd::most`] times, each times its weight, if they are weighed (see [`crate::photon::gather`] for the
+/// estimate).
 #[inline]
 pub(super) fn gather(
     map: &RadiusMap<Photon>,
     at: &Interaction,
     disc: Disc,
     end: CameraEnd,
-    weigh: impl Fn(&Photon, Between) -> f32,
+    takes: impl Fn(&Photon) -> bool,
+    weigh: Option<&impl Fn(&Photon, Between) -> f32>,
 ) -> Spectrum {
     let r2 = disc.radius * disc.radius;
     let join = |photon: &Photon| Spectrum::join(end.dispersed, photon.dispersed);
+    let takes = |photon: &Photon| u32::from(photon.scatterings) <= end.most && takes(photon);
     let mut sum = Spectrum::BLACK;
     if let Bsdf::Diffuse(_) = at.bsdf {
         // Scattering is the same for all directions on the eye's side, and none on the other.
         let (side, back) = (at.near_side(), at.shading_cos(at.wo) * FRAC_1_PI);
         map.within(at.p, disc.radius, |photon, d2| {
             let Some((cos, ratio)) = side.cos_and_ratio(photon.wi) else { return };
-            if u32::from(photon.scatterings) <= end.most {
-                let weight = join(photon) * weigh(photon, Between { forward: cos * FRAC_1_PI, back }) * ratio;
-                sum += photon.flux * (weight * disc.kernel.shape(d2, r2));
+            if takes(photon) {
+                let weight = weigh.map_or(1.0, |weigh| weigh(photon, Between { forward: cos * FRAC_1_PI, back }));
+                sum += photon.flux * (join(photon) * weight * ratio * disc.kernel.shape(d2, r2));
             }
         });
         sum *= at.f(at.wo, Transport::Radiance);
     } else {
+        let eye = at.toward_eye();
+        let between = |wi| Between { forward: at.pdf(wi), back: at.pdf_back(wi) };
         map.within(at.p, disc.radius, |photon, d2| {
-            if u32::from(photon.scatterings) > end.most {
+            if !takes(photon) {
                 return;
             }
-            let f = at.f_photon(photon.wi);
+            let f = eye.f_photon(photon.wi);
             if !f.is_black() {
-                let between = Between { forward: at.pdf(photon.wi), back: at.pdf_back(photon.wi) };
-                sum += f * photon.flux * (join(photon) * weigh(photon, between) * disc.kernel.shape(d2, r2));
+                let weight = weigh.map_or(1.0, |weigh| weigh(photon, between(photon.wi)));
+                sum += f * photon.flux * (join(photon) * weight * disc.kernel.shape(d2, r2));
             }
         });
     }

@@ -246,8 +246,9 @@ impl Ladder<'_> {
         let Some(most) = self.bandwidth.limits.scatterings.checked_sub(seen.scatterings + 1) else { return out };
         let top = spot.radius * self.top;
         let r2: [f32; RUNGS] = std::array::from_fn(|r| (top * STEP.powi(-(r as i32))).powi(2));
+        let at = seen.at.toward_eye();
         map.within(seen.at.p, top, |photon: &Photon, d2| {
-            let f = seen.at.f_photon(photon.wi);
+            let f = at.f_photon(photon.wi);
             if u32::from(photon.scatterings) > most || f.is_black() {
                 return;
             }

@@ -62,10 +62,11 @@ fn look(audit: &Audit, world: &World, map: &RadiusMap<Found>, index: u64, marked
     let mut first = First { least: audit.limits.gathers, at: None };
     walk(world, &start, &audit.limits, &mut sampler, &mut first);
     let Some(at) = first.at else { return };
+    let eye = at.toward_eye();
     map.within(at.p, audit.radii.at(raster), |photon, _| {
         let mark = &mut marked[photon.index as usize];
         // Photons from behind are near, but lend nothing.
-        *mark = *mark || !at.f_photon(photon.wi).is_black();
+        *mark = *mark || !eye.f_photon(photon.wi).is_black();
     });
 }
 
