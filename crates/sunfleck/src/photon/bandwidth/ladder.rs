@@ -17,6 +17,10 @@ const RUNGS: usize = CANDIDATES + 1;
 /// The bias of a rung over what it is off the next, where light is smooth: 1 / (1 - 1/STEP²).
 const BIAS_OVER_STEP: f64 = 4.0 / 3.0;
 
+/// Photons of a set that are looked at between one rung and the next at a spot; of more, one in so many stands for all. They are
+/// met place by place, so that their number is kept, and with it most of what it scatters from set to set.
+const PLENTY: u32 = 128;
+
 /// Sets of photons that share nothing, to try radii on. They do not depend on radii, so all trials share them.
 pub(super) struct Sets {
     /// Light paths of a set.
@@ -246,20 +250,31 @@ impl Ladder<'_> {
         let Some(most) = self.bandwidth.limits.scatterings.checked_sub(seen.scatterings + 1) else { return out };
         let top = spot.radius * self.top;
         let r2: [f32; RUNGS] = std::array::from_fn(|r| (top * STEP.powi(-(r as i32))).powi(2));
+        let ring = |d2: f32| (1..RUNGS).take_while(|r| d2 <= r2[*r]).count();
+        let mut met = [0u32; RUNGS];
+        map.within(seen.at.p, top, |_, d2| met[ring(d2)] += 1);
+        let strides = met.map(|n| n.div_ceil(PLENTY).max(1));
+        let mut met = [0u32; RUNGS];
         let at = seen.at.toward_eye();
         map.within(seen.at.p, top, |photon: &Photon, d2| {
+            let ring = ring(d2);
+            let stride = strides[ring];
+            met[ring] += 1;
+            if met[ring] % stride != stride / 2 {
+                return;
+            }
             let f = at.f_photon(photon.wi);
             if u32::from(photon.scatterings) > most || f.is_black() {
                 return;
             }
             let value = f * photon.flux * seen.beta * Spectrum::join(seen.dispersed, photon.dispersed);
-            let value = value.to_rgb(Wavelengths::Rgb).element_sum() / 3.0;
-            for r in (0..RUNGS).take_while(|r| d2 <= r2[*r]) {
+            let value = value.to_rgb(Wavelengths::Rgb).element_sum() / 3.0 * stride as f32;
+            for r in 0..=ring {
                 let part = value * kernel.shape(d2, r2[r]) / (PI * r2[r]);
                 for family in 0..=usize::from(photon.caustic) {
                     out.radiance[family][r] += part;
                     if r < CANDIDATES {
-                        out.photons[family][r] += 1;
+                        out.photons[family][r] += stride;
                     }
                 }
             }
