@@ -148,6 +148,32 @@ fn fixed_radius(c: &mut Criterion) {
     }
 }
 
+/// Radii that differ by up to `spread` each way, as far as pixels reach in scenes that go from near to far: one level of cells
+/// for the radius in the middle, and levels for all.
+fn spread_radii(c: &mut Criterion) {
+    let (points, queries) = scene();
+    let mut group = c.benchmark_group("spread");
+    group.sample_size(10).throughput(Throughput::Elements(QUERIES as u64));
+    for (spread, down, levels) in [(1.0, 0, 1), (4.0, 1, 3), (16.0, 2, 5)] {
+        let mut u = Uniform(2);
+        let asked: Vec<(Vec3, f32)> =
+            queries.iter().map(|&p| (p, 0.003 * f32::powf(spread, 2.0 * u.next() - 1.0))).collect();
+        let finest = 1.5 * 0.003 * 0.25_f32.powi(down);
+        for (name, cell, levels) in [("one level", 1.5 * 0.003, 1), ("levels", finest, levels.max(2))] {
+            let grid = PointGrid::build_levels(&points, cell, levels);
+            group.bench_function(BenchmarkId::new(name, spread), |b| {
+                b.iter(|| {
+                    let (mut hits, mut sum) = (0_u64, 0.0);
+                    asked
+                        .iter()
+                        .for_each(|&(p, r)| grid.within_slots(p, r, |_, d2| (hits, sum) = (hits + 1, sum + d2)));
+                    black_box((hits, sum))
+                });
+            });
+        }
+    }
+}
+
 fn nearest(c: &mut Criterion) {
     let (points, queries) = scene();
     let kiddo: ImmutableKdTree<f32, 3> = ImmutableKdTree::new_from_slice(&arrays(&points)).expect("finite points");
@@ -184,10 +210,15 @@ fn build(c: &mut Criterion) {
     let mut group = c.benchmark_group("build");
     group.sample_size(10);
     group.bench_function("grid", |b| b.iter(|| PointGrid::build(&points, 0.01)));
+    for levels in [2, 4] {
+        group.bench_function(BenchmarkId::new("grid, levels", levels), |b| {
+            b.iter(|| PointGrid::build_levels(&points, 0.01, levels));
+        });
+    }
     group.bench_function("hash grid", |b| b.iter(|| HashGrid::build(&points, 0.02)));
     group.bench_function("tree", |b| b.iter(|| KdTree::build(&points)));
     group.bench_function("kiddo", |b| b.iter(|| ImmutableKdTree::<f32, 3>::new_from_slice(&arrays)));
 }
 
-criterion_group!(benches, build, fixed_radius, nearest);
+criterion_group!(benches, build, fixed_radius, spread_radii, nearest);
 criterion_main!(benches);

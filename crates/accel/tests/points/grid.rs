@@ -11,10 +11,36 @@ fn found(grid: &PointGrid, p: Vec3, r: f32) -> Vec<(f32, u32)> {
 }
 
 fn agrees_with_brute_force(set: &Set, cell: f32) {
-    let grid = PointGrid::build(&set.points, cell);
+    finds_all(&PointGrid::build(&set.points, cell), set, &[0.0, 0.2, 1.0, 1.7, 30.0], cell);
+}
+
+/// Radii in scales of `set`; `cell` for the message.
+fn finds_all(grid: &PointGrid, set: &Set, radii: &[f32], cell: f32) {
     for p in set.queries() {
-        for r in [0.0, 0.2, 1.0, 1.7, 30.0].map(|f| f * set.scale) {
-            assert_eq!(found(&grid, p, r), set.within(p, r), "{}: cell {cell}, {p} within {r}", set.name);
+        for r in radii.iter().map(|f| f * set.scale) {
+            assert_eq!(found(grid, p, r), set.within(p, r), "{}: cell {cell}, {p} within {r}", set.name);
+        }
+    }
+}
+
+#[test]
+fn every_level_finds_each_point_once() {
+    // A query takes the level that suits its radius: these ask all of them, and far beyond both ends.
+    let radii = [0.0, 1e-3, 0.015, 0.06, 0.25, 1.4, 6.0, 70.0, 1e3];
+    for set in sets::all() {
+        for (finest, levels) in [(1.0, 1), (1.0, 2), (1.0 / 64.0, 5), (0.1, 3), (1e-3, PointGrid::MOST_LEVELS)] {
+            let cell = finest * set.scale;
+            finds_all(&PointGrid::build_levels(&set.points, cell, levels), &set, &radii, cell);
+        }
+    }
+}
+
+#[test]
+fn levels_far_finer_or_coarser_than_floats_can_tell_lose_nothing() {
+    for set in sets::all() {
+        for cell in [1e-38, 1e-7, 1e9, 3e38] {
+            let grid = PointGrid::build_levels(&set.points, cell, PointGrid::MOST_LEVELS);
+            finds_all(&grid, &set, &[0.0, 0.2, 1.0, 30.0], cell);
         }
     }
 }
@@ -107,25 +133,31 @@ fn slots_and_order_lead_to_the_same_points() {
 fn the_order_of_visits_does_not_depend_on_threads() {
     let mut u = Uniform(1);
     let points: Vec<Vec3> = (0..100_000).map(|_| u.vec3()).collect();
-    let visits = |threads| {
-        with_threads(threads, || {
-            let grid = PointGrid::build(&points, 0.05);
-            let mut visits = Vec::new();
-            points.iter().step_by(997).for_each(|p| grid.within(*p, 0.07, |i, d2| visits.push((i, d2))));
-            (grid.order().to_vec(), visits)
-        })
-    };
-    let one = visits(1);
-    assert!(one == visits(2) && one == visits(7));
+    for levels in [1, 4] {
+        let visits = |threads| {
+            with_threads(threads, || {
+                let grid = PointGrid::build_levels(&points, 0.05 / levels as f32, levels);
+                let mut visits = Vec::new();
+                for (i, p) in points.iter().step_by(997).enumerate() {
+                    grid.within(*p, 0.02 * (i % 8) as f32, |i, d2| visits.push((i, d2)));
+                }
+                (grid.order().to_vec(), visits)
+            })
+        };
+        let one = visits(1);
+        assert!(one == visits(2) && one == visits(7));
+    }
 }
 
 #[test]
 fn a_million_identical_points_are_no_trouble() {
-    let grid = PointGrid::build(&vec![Vec3::splat(0.1); 1_000_000], 1e-3);
-    let mut count = 0;
-    grid.within(Vec3::splat(0.1), 0.0, |_, _| count += 1);
-    grid.within(Vec3::ZERO, 0.01, |_, _| count += 1);
-    assert_eq!(count, 1_000_000);
+    for levels in [1, 4] {
+        let grid = PointGrid::build_levels(&vec![Vec3::splat(0.1); 1_000_000], 1e-3, levels);
+        let mut count = 0;
+        grid.within(Vec3::splat(0.1), 0.0, |_, _| count += 1);
+        grid.within(Vec3::ZERO, 0.01, |_, _| count += 1);
+        assert_eq!(count, 1_000_000);
+    }
 }
 
 #[test]

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     film::{Counts, FilmSpec, PassImage},
-    photon::{CameraEnd, Gathered, Keep, Radii, RadiusMap, Shower, Source, gather_counted},
+    photon::{CameraEnd, Gathered, Keep, Radii, RadiusMap, Shower, Source, Span, gather_counted},
     sampler::{Domain, Sampler},
     scene::{Scene, Sky, World},
     spectrum::{Rgb, Spectrum},
@@ -170,10 +170,9 @@ impl Prepared<'_> {
         };
         let catch = shower.shoot(world, &Source::plain());
         image.counts += catch.counts;
-        // Every hundredth pixel tells the radius in the middle well enough.
-        let mut some: Vec<f32> = state.pixels.iter().step_by(101).map(|s| s.r2.sqrt()).collect();
-        some.sort_by(f32::total_cmp);
-        RadiusMap::new(&catch.positions, &catch.photons, some[some.len() / 2])
+        // Every hundredth pixel tells the radii well enough.
+        let some = state.pixels.iter().step_by(101).map(|s| s.r2.sqrt()).collect();
+        RadiusMap::spanning(&catch.positions, &catch.photons, Span::of(some))
     }
 
     fn look(

@@ -37,7 +37,7 @@ pub use deposit::{Catch, Keep, Photon, Shower};
 pub use gather::{CameraEnd, Disc, Gathered, NearestQuery, gather_counted, gather_nearest, gather_within};
 pub use kernel::Kernel;
 pub use ledger::{Account, Amount, Audit, Ledger};
-pub use map::{NearestMap, RadiusMap};
+pub use map::{NearestMap, RadiusMap, Span};
 pub use radii::Radii;
 pub use radius::{Reach, Schedule};
 pub(crate) use sight::Sight;

@@ -1,5 +1,5 @@
 //! How far a gather reaches, over the picture: from what its pixels cover, through mirrors and glass.
-use super::sight::Sight;
+use super::{Span, sight::Sight};
 use crate::{
     film::FilmSpec,
     sampler::{Domain, Sampler},
@@ -144,6 +144,11 @@ impl Radii {
     /// A radius in the middle of those in use.
     pub fn typical(&self) -> f32 {
         self.typical
+    }
+    /// The radii of nearly all of the picture, for the index of its photons.
+    pub fn span(&self) -> Span {
+        let logs = Span::of(self.log.clone());
+        Span { typical: self.typical, least: logs.least.exp(), most: logs.most.exp() }
     }
 }
 

@@ -6,8 +6,10 @@ use rayon::prelude::*;
 /// From world units to cells and bricks. Cells are anchored at the world's origin, where floats are finest.
 #[derive(Clone, Copy)]
 pub(super) struct Lattice {
-    /// Cells per world unit.
-    pub(super) per_unit: f32,
+    /// Finest cells per world unit.
+    per_unit: f32,
+    /// A cell is as wide as 2 to this power of the finest ones.
+    shift: u32,
 }
 
 /// Integer coordinates of a brick.
@@ -15,15 +17,40 @@ pub(super) type At = [i32; 3];
 
 impl Lattice {
     pub(super) fn new(cell: f32) -> Self {
-        Self { per_unit: cell.recip().min(f32::MAX) }
+        Self { per_unit: cell.recip().min(f32::MAX), shift: 0 }
     }
 
-    /// The cell of `p`. Each coordinate is monotone in `p`'s, also where it saturates at the ends of `i32`.
+    /// The same space in cells that are the bricks of the level before, `level` times over.
+    pub(super) fn coarser(self, level: usize) -> Self {
+        Self { shift: self.shift + 2 * level as u32, ..self }
+    }
+
+    /// Width of a cell in finest cells.
+    #[inline(always)]
+    pub(super) fn width(self) -> f32 {
+        (1_u32 << self.shift) as f32
+    }
+
+    /// `length` (world units) in finest cells.
+    #[inline(always)]
+    pub(super) fn in_finest(self, length: f32) -> f32 {
+        length * self.per_unit
+    }
+
+    /// `p` and `length` (world units) in cells, the former within the range of whole coordinates.
+    #[inline(always)]
+    pub(super) fn in_cells(self, p: Vec3, length: f32) -> (Vec3, f32) {
+        let end = Vec3::splat(i32::MAX as f32);
+        let per_cell = self.width().recip();
+        ((p * self.per_unit).clamp(-end, end) * per_cell, length * self.per_unit * per_cell)
+    }
+
+    /// The cell of `p`. Each coordinate is monotone in `p`'s, also where it saturates at the ends of the range.
     #[inline(always)]
     pub(super) fn cell(self, p: Vec3) -> [i32; 3] {
         (p * self.per_unit).to_array().map(|v| {
             let toward_zero = v as i32;
-            toward_zero.saturating_sub(i32::from(toward_zero as f32 > v))
+            toward_zero.saturating_sub(i32::from(toward_zero as f32 > v)) >> self.shift
         })
     }
 }

@@ -8,16 +8,16 @@
 use glam::Vec3;
 use rayon::prelude::*;
 
-use super::PointGrid;
 use super::brick::{At, Brick, Bricks, Lattice, bit_of, brick_of, hash, upper};
+use super::{Level, PointGrid};
 use crate::memory::large_zeroed;
 use crate::points::lanes::{Isa, LANES};
 
 /// Points per chunk of the input.
-const CHUNK: usize = 1 << 15;
+pub(super) const CHUNK: usize = 1 << 15;
 
 /// Points that a partition holds on average, at most: few enough to sort within a core's own cache.
-const PARTITION: usize = 1 << 12;
+pub(super) const PARTITION: usize = 1 << 12;
 
 /// A point and its place in the input.
 #[derive(Clone, Copy, Default)]
@@ -65,7 +65,8 @@ pub(super) fn build(points: &[Vec3], cell: f32) -> PointGrid {
         })
         .collect();
     let (bricks, starts) = join(sorted, count);
-    PointGrid { bricks: Bricks::new(lattice, &bricks), starts, coords, order, isa: Isa::detect() }
+    let level = Level { bricks: Bricks::new(lattice, &bricks), starts };
+    PointGrid { levels: vec![level], coords, order, isa: Isa::detect() }
 }
 
 impl Chunk {

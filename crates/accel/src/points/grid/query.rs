@@ -3,8 +3,8 @@
 
 use glam::Vec3;
 
-use super::PointGrid;
 use super::brick::{Brick, Touched};
+use super::{Level, PointGrid};
 use crate::points::lanes::{LANES, Lanes, Near, Task};
 
 /// A relative margin far above the rounding of a few f32 operations, far below what would cost time.
@@ -21,6 +21,7 @@ const FOUND: usize = 64;
 #[derive(Clone, Copy)]
 struct Sphere<'g> {
     grid: &'g PointGrid,
+    level: &'g Level,
     p: Vec3,
     /// The squared radius that points are held against.
     r2: f32,
@@ -42,18 +43,15 @@ pub(super) struct Query<'g, F> {
 
 impl<'g, F: FnMut(&[u32], &[f32])> Query<'g, F> {
     #[inline(always)]
-    pub(super) fn new(grid: &'g PointGrid, p: Vec3, r: f32, visit: F) -> Self {
+    pub(super) fn new(grid: &'g PointGrid, level: &'g Level, p: Vec3, r: f32, visit: F) -> Self {
         let r2 = r * r;
         // Squares of distances below 1e-22 underflow, squares of those above 1e19 overflow.
         let reach = if r2.is_finite() { r + r * MARGIN + 1e-22 } else { f32::INFINITY };
-        let per_unit = grid.bricks.lattice().per_unit;
-        let end = i32::MAX as f32;
-        let center = (p * per_unit).clamp(Vec3::splat(-end), Vec3::splat(end));
-        let cells = reach * per_unit;
+        let (center, cells) = level.bricks.lattice().in_cells(p, reach);
         // Whole numbers above 2^24 round as well, hence all that is as large as a cell's coordinate counts.
         let slack = (center.abs().max_element() + cells + 8.0) * MARGIN;
         let reach2 = cells * cells * (1.0 + 4.0 * MARGIN);
-        Self { sphere: Sphere { grid, p, r2, reach, center, slack, reach2 }, visit }
+        Self { sphere: Sphere { grid, level, p, r2, reach, center, slack, reach2 }, visit }
     }
 }
 
@@ -97,7 +95,7 @@ impl<F: FnMut(&[u32], &[f32])> Search<'_, F> {
     /// Notes those cells of `brick` that the sphere may touch.
     #[inline(always)]
     fn note_brick<L: Lanes>(&mut self, lanes: L, brick: &Brick) {
-        let Sphere { grid, reach2, .. } = self.sphere;
+        let Sphere { grid, level, reach2, .. } = self.sphere;
         let near = lanes.cells(&[0, 1, 2].map(|axis| self.sphere.layers(axis, brick.at[axis])), reach2);
         let mut rest = brick.cells & near;
         while rest != 0 {
@@ -107,7 +105,7 @@ impl<F: FnMut(&[u32], &[f32])> Search<'_, F> {
             let below_stop = (stop & stop.wrapping_neg()).wrapping_sub(1);
             let first = brick.first + (brick.cells & (from - 1)).count_ones();
             let end = first + (rest & below_stop).count_ones();
-            let (start, end) = (grid.starts[first as usize], grid.starts[end as usize]);
+            let (start, end) = (level.starts[first as usize], level.starts[end as usize]);
             for c in &grid.coords {
                 lanes.prefetch(&raw const c[start as usize]);
             }
@@ -159,7 +157,7 @@ impl<F: FnMut(&[u32], &[f32])> Task for Query<'_, F> {
             found: 0,
             visit,
         };
-        let mut bricks = sphere.grid.bricks.touched(sphere.p - sphere.reach, sphere.p + sphere.reach);
+        let mut bricks = sphere.level.bricks.touched(sphere.p - sphere.reach, sphere.p + sphere.reach);
         while search.note(lanes, &mut bricks) {
             search.test(lanes);
         }

@@ -47,6 +47,7 @@ use light::{Shower, Subpaths};
 use mis::Rule;
 use plan::Plan;
 use std::ops::Range;
+use vertex::Photon;
 
 /// Settings of the engine.
 #[derive(Clone, Copy, Debug)]
@@ -303,8 +304,7 @@ impl Prepared<'_> {
     fn look(&self, job: &Job, world: &World, subpaths: Subpaths, radii: &Radii, image: &mut PassImage) {
         let rule = self.rule(job.count());
         let shrink = self.engine.schedule.radius(job.pass.index);
-        let gathers = rule.on.merge.is_on();
-        let map = gathers.then(|| RadiusMap::new(&subpaths.positions, &subpaths.photons, radii.typical() * shrink));
+        let map = rule.on.merge.is_on().then(|| self.index(&subpaths, radii, shrink, image.spec()));
         let eye = Eye {
             world,
             rule,
@@ -333,6 +333,12 @@ impl Prepared<'_> {
             look.add_lamps(&mut ray.sampler);
             look.finish(rays).to_rgb(job.pass.lambda) * (job.share * ray.weight)
         });
+    }
+
+    /// Photons by place, for the radii of this pass.
+    fn index(&self, subpaths: &Subpaths, radii: &Radii, shrink: f32, spec: FilmSpec) -> RadiusMap<Photon> {
+        let span = radii.span().scaled(shrink).if_worth_it(subpaths.photons.len(), spec.pixels());
+        RadiusMap::spanning(&subpaths.positions, &subpaths.photons, span)
     }
 
     fn walk_light(&self, job: &Job, world: &World, rule: Rule, shrink: f32, image: &mut PassImage) -> Subpaths {
