@@ -32,10 +32,7 @@ use super::{Integrator, Pass, PassRenderer, eye_ray::EyeRay};
 use crate::{
     camera::{Project, Spread},
     film::{FilmSpec, PassImage},
-    photon::{
-        After, Audit, Bandwidth, Evenness, Fitted, Keep, Kernel, Radii, RadiusMap, Schedule, Source, Training,
-        bandwidth,
-    },
+    photon::{After, Audit, Bandwidth, Evenness, Fitted, Keep, Kernel, Radii, Schedule, Source, Training, bandwidth},
     scene::{MID_SHUTTER, Scene, World},
     spectrum::Wavelengths,
     walk::{Limits, walk},
@@ -47,7 +44,6 @@ use light::{Shower, Subpaths};
 use mis::Rule;
 use plan::Plan;
 use std::ops::Range;
-use vertex::Photon;
 
 /// Settings of the engine.
 #[derive(Clone, Copy, Debug)]
@@ -304,7 +300,7 @@ impl Prepared<'_> {
     fn look(&self, job: &Job, world: &World, subpaths: Subpaths, radii: &Radii, image: &mut PassImage) {
         let rule = self.rule(job.count());
         let shrink = self.engine.schedule.radius(job.pass.index);
-        let map = rule.on.merge.is_on().then(|| self.index(&subpaths, radii, shrink, image.spec()));
+        let map = rule.on.merge.is_on().then(|| subpaths.index(radii.span().scaled(shrink), image.spec().pixels()));
         let eye = Eye {
             world,
             rule,
@@ -333,12 +329,6 @@ impl Prepared<'_> {
             look.add_lamps(&mut ray.sampler);
             look.finish(rays).to_rgb(job.pass.lambda) * (job.share * ray.weight)
         });
-    }
-
-    /// Photons by place, for the radii of this pass.
-    fn index(&self, subpaths: &Subpaths, radii: &Radii, shrink: f32, spec: FilmSpec) -> RadiusMap<Photon> {
-        let span = radii.span().scaled(shrink).if_worth_it(subpaths.photons.len(), spec.pixels());
-        RadiusMap::spanning(&subpaths.positions, &subpaths.photons, span)
     }
 
     fn walk_light(&self, job: &Job, world: &World, rule: Rule, shrink: f32, image: &mut PassImage) -> Subpaths {

@@ -132,9 +132,11 @@ impl Vertices {
     pub(super) fn len(&self) -> usize {
         self.all.len()
     }
-    /// Memory (bytes) that they take.
+    /// Memory (bytes) that they take, with room to spare.
     pub(super) fn bytes(&self) -> usize {
-        size_of_val(self.all.as_slice()) + size_of_val(self.whole.as_slice()) + size_of_val(self.ends.as_slice())
+        self.all.capacity() * size_of::<LightVertex>()
+            + self.whole.capacity() * size_of::<Interaction>()
+            + self.ends.capacity() * size_of::<u32>()
     }
 }
 
