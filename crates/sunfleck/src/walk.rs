@@ -8,6 +8,7 @@ use crate::{
     sampler::Sampler,
     scene::{Interaction, Scattered, World},
     spectrum::Spectrum,
+    texture::Cone,
 };
 use glam::Vec2;
 
@@ -20,12 +21,14 @@ pub struct Limits {
     pub roulette_after: u32,
     /// Photons are left and gathered where lobes are at least so wide: narrow ones may be left to the walks, as delta lobes are.
     pub gathers: Lobes,
+    /// Whether colours that the camera sees are means over what a pixel covers.
+    pub filter: bool,
 }
 
 impl Default for Limits {
     /// 64 scatterings, roulette after the third: bright, clear glass needs more than a handful.
     fn default() -> Self {
-        Self { scatterings: 64, roulette_after: 3, gathers: Lobes::Narrow }
+        Self { scatterings: 64, roulette_after: 3, gathers: Lobes::Narrow, filter: true }
     }
 }
 
@@ -35,6 +38,8 @@ impl Default for Limits {
 pub struct Arrival<'a> {
     /// Where.
     pub at: &'a Interaction,
+    /// The ray that led here.
+    pub ray: &'a Ray,
     /// Throughput (camera walk) or flux (light walk) that arrives.
     pub beta: Spectrum,
     /// The same at the beginning of the last leg, before an interior took its share.
@@ -112,14 +117,16 @@ pub struct Start {
     pub dispersed: bool,
     /// The interiors that it starts in.
     pub inside: Inside,
+    /// How wide it is: see [`Cone`].
+    pub cone: Cone,
 }
 
 impl Start {
-    /// Of a path from the camera.
+    /// Of a path from the camera, as wide as a mere ray.
     #[inline]
     pub fn from_camera(world: &World, ray: Ray) -> Self {
         let inside = world.camera_inside();
-        Self { ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false, inside }
+        Self { ray, beta: Spectrum::ONE, mode: Transport::Radiance, dispersed: false, inside, cone: Cone::RAY }
     }
 }
 
@@ -131,7 +138,7 @@ impl Arrival<'_> {
         if s.crosses && world.is_filled() {
             world.cross(self.at, &mut inside);
         }
-        Start { ray: self.at.spawn(s.wi), beta: s.weight, mode, dispersed: self.dispersed, inside }
+        Start { ray: self.at.spawn(s.wi), beta: s.weight, mode, dispersed: self.dispersed, inside, cone: Cone::RAY }
     }
 }
 
@@ -146,12 +153,15 @@ impl Arrival<'_> {
 ///
 /// Returns the number of rays traced.
 pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler, visitor: &mut impl Visit) -> u64 {
-    let Start { mut ray, mut beta, mode, mut dispersed, mut inside } = *start;
+    let Start { mut ray, mut beta, mode, mut dispersed, mut inside, mut cone } = *start;
+    if !(limits.filter && world.has_means()) {
+        cone = Cone::RAY;
+    }
     let (mut pdf, mut delta, mut caustic, mut all_delta) = (1.0, true, false, true);
     let (mut eta_scale, mut travelled) = (1.0f32, 0.0);
     let mut scatterings = 0;
     loop {
-        let mut hit = world.intersect(&ray);
+        let mut hit = world.intersect_seen(&ray, |t| (!cone.is_ray()).then(|| (ray.d, cone.width_at(t))));
         if world.is_filled() {
             world.within(&mut hit, &mut inside);
         }
@@ -166,6 +176,7 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         }
         let arrival = Arrival {
             at,
+            ray: &ray,
             beta,
             departed,
             scatterings,
@@ -210,6 +221,7 @@ pub fn walk(world: &World, start: &Start, limits: &Limits, sampler: &mut Sampler
         visitor.scatter(at, &s);
         (pdf, delta) = (s.pdf, s.delta);
         caustic = s.delta || !at.gathers(limits.gathers);
+        cone = if s.delta && !at.curved && !cone.is_ray() { cone.beyond(at.distance, s.eta) } else { Cone::RAY };
         all_delta &= s.delta;
         if s.crosses && world.is_filled() {
             world.cross(at, &mut inside);

@@ -27,7 +27,7 @@ fn unknown_names_are_answered_with_the_known_ones() {
         assert!(said.contains(entry.name), "{said}");
     }
     let said = refused(&place, "render ball.scn -q --integrator path --set photons=5");
-    insta::assert_snapshot!(said, @"error: `photons` is not a setting of `path`; it knows scatterings, roulette-after");
+    insta::assert_snapshot!(said, @"error: `photons` is not a setting of `path`; it knows scatterings, roulette-after, texture-filter");
     insta::assert_snapshot!("unknown_extension", refused(&place, "render ball.scn -o a.pgn"));
     insta::assert_snapshot!("unknown_scene_format", refused(&place, "render ball.blend -q"));
     insta::assert_snapshot!("missing_scene", refused(&place, "info bal.scn"));

@@ -20,7 +20,11 @@ impl Model for ConductorMaterial {
     const ABOUT: &'static str = "polished metal with the complex index `eta` + i·`k` by channel (exact Fresnel)";
     #[inline]
     fn resolve(&self, at: &Lookup) -> Conductor {
-        Conductor { eta: at.spectrum(self.eta), k: at.spectrum(self.k), reflectance: at.spectrum(self.reflectance) }
+        Conductor {
+            eta: at.spectrum_of_point(self.eta),
+            k: at.spectrum_of_point(self.k),
+            reflectance: at.spectrum(self.reflectance),
+        }
     }
     fn textures(&self) -> Vec<TextureId> {
         vec![self.eta, self.k, self.reflectance]

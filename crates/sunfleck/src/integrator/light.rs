@@ -1,8 +1,11 @@
 //! Light tracing: paths from the lights, each vertex connected to the camera. Finds caustics on matt surfaces; cannot
 //! see anything in a mirror or through glass.
-use super::{Entry, Integrator, Pass, PassRenderer, eye_ray::EyeRay};
+use super::{
+    Entry, Integrator, Pass, PassRenderer,
+    eye_ray::{EyeRay, seen_from_lens},
+};
 use crate::{
-    bsdf::Transport,
+    bsdf::{Lobes, Transport},
     camera::Project,
     film::{Counts, FilmSpec, PassImage, Splat, Splats},
     photon::Source,
@@ -51,8 +54,9 @@ impl PassRenderer for Prepared<'_> {
         let chunks: Vec<(Splats, Counts)> = (0..paths.div_ceil(CHUNK))
             .into_par_iter()
             .map(|c| {
-                let mut out =
-                    Connect { world: &world, limits: self.limits, splats: Vec::new(), counts: Counts::default() };
+                let (world, limits) = (&world, self.limits);
+                let (splats, counts) = (Vec::new(), Counts::default());
+                let mut out = Connect { world, limits, spec, pass: pass.index, splats, counts };
                 for index in c * CHUNK..((c + 1) * CHUNK).min(paths) {
                     out.trace(Sampler::new(pass.seed, Domain::Light, pass.index, index), paths);
                 }
@@ -85,6 +89,9 @@ fn lights_seen_directly(world: &World, pass: &Pass, image: &mut PassImage) {
 struct Connect<'w> {
     world: &'w World<'w>,
     limits: Limits,
+    spec: FilmSpec,
+    /// Number of the pass.
+    pass: u64,
     splats: Vec<Splat>,
     counts: Counts,
 }
@@ -104,11 +111,19 @@ impl Visit for Connect<'_> {
     #[inline]
     fn surface(&mut self, a: &Arrival, sampler: &mut Sampler) -> Step {
         let u_lens = sampler.next_2d();
-        if a.scatterings >= self.limits.scatterings || !a.at.is_connectible() {
+        // What is black here may be seen as the mean over a pixel.
+        if a.scatterings >= self.limits.scatterings || a.at.widest == Lobes::Delta {
             return Step::On;
         }
         let Some(c) = self.world.camera().sample_wi(a.at.p, u_lens) else { return Step::On };
-        let value = a.beta * a.at.f_cos(c.wi, Transport::Flux) * c.importance;
+        let seen;
+        let at = if self.limits.filter && self.world.has_means() {
+            seen = seen_from_lens(self.world, a, &c, self.spec, self.pass);
+            &seen
+        } else {
+            a.at
+        };
+        let value = a.beta * at.f_cos(c.wi, Transport::Flux) * c.importance;
         if !value.is_black() {
             self.counts.rays += 1;
             if let Some(passed) = self.world.passed(a.at, &a.at.spawn_to(c.wi, c.p)) {

@@ -43,7 +43,7 @@ pub enum ParamError {
 }
 
 /// Settings common to all algorithms.
-const COMMON: [ParamInfo; 2] = [
+const COMMON: [ParamInfo; 3] = [
     ParamInfo {
         name: "scatterings",
         about: "scatterings on a path from light to eye at most, 0 to 10000 (default 64)",
@@ -51,6 +51,10 @@ const COMMON: [ParamInfo; 2] = [
     ParamInfo {
         name: "roulette-after",
         about: "scatterings before Russian roulette on camera paths, 0 to 10000 (default 3)",
+    },
+    ParamInfo {
+        name: "texture-filter",
+        about: "colours that the camera sees are means over its pixel, which gets narrower with each pass: on or off (default on)",
     },
 ];
 
@@ -117,7 +121,8 @@ impl Params {
         let d = Limits::default();
         let scatterings = self.count(COMMON[0].name, u64::from(d.scatterings), 0..=10_000)? as u32;
         let roulette_after = self.count(COMMON[1].name, u64::from(d.roulette_after), 0..=10_000)? as u32;
-        Ok(Limits { scatterings, roulette_after, ..d })
+        let filter = self.switch(COMMON[2].name, d.filter)?;
+        Ok(Limits { scatterings, roulette_after, filter, ..d })
     }
     /// Complains of what nobody took.
     pub(super) fn finish(self, entry: &Entry) -> Result<(), ParamError> {
@@ -162,7 +167,7 @@ mod tests {
         };
         assert_eq!(
             message("scaterings", "1"),
-            "`scaterings` is not a setting of `path`; it knows scatterings, roulette-after"
+            "`scaterings` is not a setting of `path`; it knows scatterings, roulette-after, texture-filter"
         );
         assert_eq!(message("scatterings", "-1"), "scatterings=-1 is not a whole number from 0 to 10000");
     }

@@ -22,7 +22,7 @@ pub(super) const ENTRY: Entry = Entry {
 
 /// Narrow lobes are left to the walks: of the photons on hazy glass or metal hardly one in a hundred is scattered to the eye,
 /// while a walk goes on from there as from clear glass, to where gathers are worth more.
-const LIMITS: Limits = Limits { scatterings: 64, roulette_after: 3, gathers: Lobes::Wide };
+const LIMITS: Limits = Limits { scatterings: 64, roulette_after: 3, gathers: Lobes::Wide, filter: true };
 
 pub(super) const ON: Techniques =
     Techniques { hit: true, nee: true, light_image: false, connect: false, merge: Merge::Caustic };

@@ -6,6 +6,7 @@ use crate::{
     light::{Emitter, EmitterHit, LeSample, LightId},
     sampler::Sampler,
     scene::{Scene, World},
+    texture::Cone,
     walk::Start,
 };
 use glam::Vec3;
@@ -37,7 +38,7 @@ impl Emission {
     pub(super) fn new(world: &World, light: LightId, prob: f32, le: LeSample) -> Option<Self> {
         let beta = le.flux() / prob;
         let inside = world.light_inside(light);
-        let start = Start { ray: le.ray, beta, mode: Transport::Flux, dispersed: false, inside };
+        let start = Start { ray: le.ray, beta, mode: Transport::Flux, dispersed: false, inside, cone: Cone::RAY };
         let pdf = prob * le.pdf_area * le.pdf_dir;
         (beta.is_finite() && !beta.is_black()).then_some(Self { start, light, le, pdf })
     }

@@ -216,15 +216,19 @@ impl SceneBuilder {
         let mut looks = looks(&materials, &textures);
         for (look, filling) in looks.iter_mut().zip(&fillings) {
             look.interior = *filling;
+            // What lies on the other side is not looked up again.
+            look.has_means &= filling.is_none();
             // Its scattering depends on what is before it.
             look.at_place_alone &= filling.is_none_or(|id| interiors[usize::from(id.0)].priority == 0);
         }
+        let has_means = looks.iter().any(|l| l.has_means);
         let crowded = false.into();
         Ok(Scene {
             textures,
             materials,
             porous,
             looks,
+            has_means,
             interiors,
             crowded,
             objects,
@@ -311,18 +315,32 @@ fn porous(materials: &[Material], fillings: &[Option<InteriorId>]) -> Vec<bool> 
 /// What each material looks at.
 fn looks(materials: &[Material], textures: &[Texture]) -> Vec<Looks> {
     // Textures are made of earlier ones.
-    let mut of_vertices: Vec<bool> = Vec::with_capacity(textures.len());
-    for t in textures {
-        let parts = t.parts();
-        of_vertices.push(t.asks_vertices() || parts.iter().any(|part| of_vertices[part.0 as usize]));
+    let made_of = |is: fn(&Texture) -> bool| {
+        let mut all: Vec<bool> = Vec::with_capacity(textures.len());
+        for t in textures {
+            all.push(is(t) || t.parts().iter().any(|part| all[part.0 as usize]));
+        }
+        all
+    };
+    let (of_vertices, of_means) = (made_of(Texture::asks_vertices), made_of(Texture::has_means));
+    // Coverings are made of earlier materials.
+    let mut means: Vec<bool> = Vec::with_capacity(materials.len());
+    for m in materials {
+        let own = m.textures().iter().any(|t| of_means[t.0 as usize]);
+        means.push(own || m.parts().iter().any(|part| means[part.0 as usize]));
     }
-    let one = |m: &Material| {
+    let one = |(m, has_means): (&Material, bool)| {
         let own = m.textures();
         let even = own.iter().all(|t| matches!(textures[t.0 as usize], Texture::Constant(_)));
         let asks_vertices = own.iter().any(|t| of_vertices[t.0 as usize]);
-        Looks { is_even: m.is_plain() && even, at_place_alone: m.is_plain() && !asks_vertices, interior: None }
+        Looks {
+            is_even: m.is_plain() && even,
+            at_place_alone: m.is_plain() && !asks_vertices,
+            has_means,
+            interior: None,
+        }
     };
-    materials.iter().map(one).collect()
+    materials.iter().zip(means).map(one).collect()
 }
 
 impl From<Quality> for accel::Quality {

@@ -5,7 +5,7 @@ use crate::{
     light::{EmitterHit, LightEnd, LightId},
     math::{Frame, Local, Ray, offset_origin},
     medium::Medium,
-    shape::SurfacePoint,
+    shape::{Shape, SurfacePoint},
     spectrum::Spectrum,
 };
 use glam::{Vec2, Vec3};
@@ -34,6 +34,8 @@ pub struct Interaction {
     /// The widest lobes of the material, which say whether photons are kept here. Where materials are mixed, those of all
     /// of them, even if this path met another.
     pub widest: Lobes,
+    /// Its surface is a ball's, or its normals make it look bent.
+    pub curved: bool,
     /// The light on this surface.
     pub light: Option<LightId>,
     /// What lies on the side of `wo`, and on the other.
@@ -116,6 +118,7 @@ impl Interaction {
             bsdf: even.bsdf,
             material: surface.material,
             widest: even.widest,
+            curved: matches!(surface.shape, Shape::Sphere(_)) || s.n != s.ng,
             light: surface.light,
             near: Medium::VACUUM,
             far: Medium::VACUUM,
@@ -124,7 +127,20 @@ impl Interaction {
     #[inline]
     pub(super) fn covered(s: &SurfacePoint, wo: Vec3, distance: f32, by: &Covered, surface: &Surface) -> Self {
         let Covered { bsdf, frame, widest } = *by;
-        Self { frame, ..Self::new(s, wo, distance, &Even { bsdf, widest }, surface) }
+        let curved = matches!(surface.shape, Shape::Sphere(_)) || frame.n != s.ng;
+        Self { frame, curved, ..Self::new(s, wo, distance, &Even { bsdf, widest }, surface) }
+    }
+    /// Takes a surface that is black at this very point for one that is not: the camera may see colours around it, too.
+    #[inline]
+    pub(super) fn as_if_coloured(&mut self) {
+        use Bsdf::{Diffuse, DiffuseTransmission, NRendererPhong, Phong, Plastic, RoughPlastic};
+        let matt = matches!(
+            self.bsdf,
+            Diffuse(_) | DiffuseTransmission(_) | NRendererPhong(_) | Phong(_) | Plastic(_) | RoughPlastic(_)
+        );
+        if matt {
+            self.widest = Lobes::Wide;
+        }
     }
     /// The emitting surface that was met.
     #[inline]

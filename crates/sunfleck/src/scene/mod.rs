@@ -60,6 +60,8 @@ pub struct Scene {
     porous: Vec<bool>,
     /// What it looks at, by material.
     looks: Vec<Looks>,
+    /// Some material [`Looks::has_means`].
+    has_means: bool,
     interiors: Vec<Interior>,
     /// Some path was in more interiors than it can remember.
     crowded: AtomicBool,
@@ -80,6 +82,8 @@ struct Looks {
     is_even: bool,
     /// Nothing but the point, its texture coordinates and its normal: see [`Record`].
     at_place_alone: bool,
+    /// What is seen of the surface at once, for colours that are the mean over it.
+    has_means: bool,
     /// What lies behind it. Not of a hit, but looked up with the rest.
     interior: Option<InteriorId>,
 }

@@ -40,6 +40,7 @@ impl Record {
             bsdf: even.bsdf,
             material: self.material,
             widest: even.widest,
+            curved: self.n != self.ng,
             light: None,
             near: Medium::VACUUM,
             far: Medium::VACUUM,

@@ -11,6 +11,7 @@ use crate::{
     },
     math::Ray,
     shape::{SurfacePoint, Tangents},
+    texture::Footprint,
 };
 use accel::Hit;
 use glam::{Mat3A, Vec3};
@@ -22,6 +23,12 @@ impl World<'_> {
     /// The first surface along `ray` (unit direction), materials resolved.
     #[inline(always)]
     pub fn intersect(&self, ray: &Ray) -> Option<Interaction> {
+        self.intersect_seen(ray, |_| None)
+    }
+    /// As [`World::intersect`], colours being the mean over what is seen at once: `sight` tells, after the distance to the hit,
+    /// in which direction the eye looks at it and how wide (world units) that is.
+    #[inline(always)]
+    pub fn intersect_seen(&self, ray: &Ray, sight: impl FnOnce(f32) -> Option<(Vec3, f32)>) -> Option<Interaction> {
         let bvh = &self.moment.bvh;
         let hit = if self.scene.porous.is_empty() { bvh.closest(ray) } else { self.closest_between_holes(ray) }?;
         let (surface, point) = self.locate(&hit, ray);
@@ -30,15 +37,27 @@ impl World<'_> {
             return Some(Interaction::new(&point, wo, t, even, surface));
         }
         let attributes = surface.shape.attributes(&hit);
-        let at =
-            Lookup { textures: &self.scene.textures, uv: point.uv, p: point.p, lambda: self.around.lambda, attributes };
+        let has_means = self.scene.looks[surface.material.0 as usize].has_means;
+        let seen = if has_means { sight(hit.t) } else { None };
+        let at = Lookup {
+            textures: &self.scene.textures,
+            uv: point.uv,
+            p: point.p,
+            lambda: self.around.lambda,
+            attributes,
+            footprint: seen.map_or(Footprint::POINT, |(d, width)| self.footprint(&hit, ray, point.ng, d, width)),
+        };
         let material = &self.scene.materials[surface.material.0 as usize];
         let covered = if material.is_plain() {
             Covered::plain(material.resolve(&at), point.n)
         } else {
             self.cover(&hit, ray, surface, &point, at)
         };
-        Some(Interaction::covered(&point, wo, t, &covered, surface))
+        let mut met = Interaction::covered(&point, wo, t, &covered, surface);
+        if has_means {
+            met.as_if_coloured();
+        }
+        Some(met)
     }
     /// Whether [`World::recall`] makes `at` again from a record of it.
     #[inline]
@@ -54,6 +73,26 @@ impl World<'_> {
         let at = Lookup::new(&self.scene.textures, record.uv, record.p, self.around.lambda);
         let bsdf = self.scene.materials[record.material.0 as usize].resolve(&at);
         record.with(&Even { bsdf, widest: bsdf.lobes() })
+    }
+    /// Whether some material looks at textures that are means over what is seen at once.
+    #[inline]
+    pub fn has_means(&self) -> bool {
+        self.scene.has_means
+    }
+    /// What lies at `at`, which was found along `ray`, as the eye sees it that looks in direction `d` at `width` (world units) at
+    /// once.
+    pub fn seen(&self, at: &Interaction, ray: &Ray, d: Vec3, width: f32) -> Interaction {
+        if !self.scene.looks[at.material.0 as usize].has_means {
+            return *at;
+        }
+        // The same ray meets the same surface again, by the same tosses; past a hidden surface it would not.
+        let again = self.intersect_seen(ray, |_| Some((d, width))).filter(|again| again.p == at.p);
+        again.map_or(*at, |again| Interaction { bsdf: again.bsdf, frame: again.frame, ..*at })
+    }
+    /// What a cone of `width` in direction `d` covers at a hit.
+    #[inline(never)]
+    fn footprint(&self, hit: &Hit, ray: &Ray, ng: Vec3, d: Vec3, width: f32) -> Footprint {
+        self.tangents(hit, ray).map_or(Footprint::POINT, |tangents| Footprint::new(width, d, ng, tangents))
     }
     /// Whether something lies within the reach of `ray`.
     #[inline]
@@ -135,6 +174,7 @@ impl World<'_> {
             p: point.p,
             lambda: self.around.lambda,
             attributes: surface.shape.attributes(hit),
+            footprint: Footprint::POINT,
         };
         let opacity = opacity(surface.material, &self.scene.materials, &at);
         // A ball may be met twice by the same ray, so the place is part of the toss.

@@ -1,5 +1,5 @@
 //! Textures made of other textures.
-use super::{Lookup, TextureId, Value};
+use super::{Footprint, Lookup, TextureId, Value};
 use crate::spectrum::Rgb;
 use glam::{Affine2, Vec2};
 
@@ -55,11 +55,12 @@ pub struct Mapped {
 
 impl Mapped {
     pub(super) fn value<V: Value>(&self, at: &Lookup) -> V {
-        let uv = match self.set {
-            UvSet::First => at.uv,
-            UvSet::Second => at.attributes.uv2,
+        let (uv, footprint) = match self.set {
+            UvSet::First => (at.uv, at.footprint),
+            UvSet::Second => (at.attributes.uv2, Footprint::POINT),
         };
-        Lookup { uv: self.map.transform_point2(uv), ..*at }.value(self.of)
+        let footprint = if footprint.is_point() { footprint } else { footprint.mapped(self.map.matrix2) };
+        Lookup { uv: self.map.transform_point2(uv), footprint, ..*at }.value(self.of)
     }
 }
 
@@ -72,6 +73,7 @@ pub struct Product {
 
 impl Product {
     pub(super) fn value<V: Value>(self, at: &Lookup) -> V {
+        let at = at.for_product(&self.of);
         at.value::<V>(self.of[0]) * at.value(self.of[1])
     }
 }
@@ -89,6 +91,7 @@ pub struct Mix {
 
 impl Mix {
     pub(super) fn value<V: Value>(&self, at: &Lookup) -> V {
+        let at = at.for_product(&[self.amount, self.from]).for_product(&[self.amount, self.to]);
         let share: V = at.value(self.amount);
         at.value::<V>(self.from) * (V::ONE - share) + at.value::<V>(self.to) * share
     }

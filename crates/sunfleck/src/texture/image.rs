@@ -1,7 +1,12 @@
-//! A picture as a texture, with bilinear filtering.
-use super::pixels::Pixels;
+//! A picture as a texture: bilinear between its pixels, trilinear between smaller versions where a lookup covers more of it.
+use super::{
+    footprint::Footprint,
+    pixels::Pixels,
+    pyramid::{Level, levels},
+};
 use crate::spectrum::Rgb;
 use glam::Vec2;
+use std::sync::OnceLock;
 
 /// What lies outside the unit square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -26,6 +31,8 @@ pub struct ImageTexture {
     pixels: Pixels,
     /// Across, then down.
     wrap: [Wrap; 2],
+    /// Smaller versions, made when they are first asked for.
+    levels: OnceLock<Vec<Level>>,
 }
 
 impl ImageTexture {
@@ -36,6 +43,7 @@ impl ImageTexture {
             height,
             pixels: Pixels::new(pixels),
             wrap: [wrap; 2],
+            levels: OnceLock::new(),
         })
     }
     /// The same picture in half the memory, if it has 2²⁰ pixels or more that cannot be kept in less without a change: rounded
@@ -52,8 +60,10 @@ impl ImageTexture {
     }
     /// Memory (bytes) that the pixels take: 1 each for grey 8-bit files, 3 for others of 8 bits, 4 for Radiance pictures, 6 for
     /// half floats and 12 for the rest.
+    ///
+    /// Smaller versions take at most 2 more, from when they are first asked for.
     pub fn bytes(&self) -> usize {
-        self.pixels.bytes()
+        self.pixels.bytes() + self.levels.get().map_or(0, |levels| levels.iter().map(Level::bytes).sum())
     }
     /// Continues the picture differently across and down.
     pub fn with_wrap(self, across: Wrap, down: Wrap) -> Self {
@@ -83,13 +93,56 @@ impl ImageTexture {
     /// Bilinear interpolation between the four nearest pixel centres. Broken coordinates give the lower left corner.
     #[inline]
     pub fn eval(&self, uv: Vec2) -> Rgb {
-        let p = Vec2::new(uv.x * self.width as f32 - 0.5, (1.0 - uv.y) * self.height as f32 - 0.5);
-        let p = if p.is_finite() { p } else { Vec2::new(-0.5, self.height as f32 - 0.5) };
-        let cell = p.floor();
-        let x = [0, 1].map(|d| self.wrap[0].index((cell.x as i64).saturating_add(d), self.width));
-        let row = [0, 1].map(|d| self.width * self.wrap[1].index((cell.y as i64).saturating_add(d), self.height));
-        self.pixels.blend([row[0] + x[0], row[0] + x[1], row[1] + x[0], row[1] + x[1]], p - cell)
+        let (at, f) = place_between(uv, self.width, self.height, self.wrap);
+        self.pixels.blend(at, f)
     }
+    /// The mean over `footprint`, about: trilinear between smaller versions of the picture (Williams 1983), in several pieces
+    /// where the footprint is long. The same as [`ImageTexture::eval`] where that is no longer than a pixel.
+    #[inline]
+    pub fn filtered(&self, uv: Vec2, footprint: &Footprint) -> Rgb {
+        if footprint.is_point() {
+            return self.eval(uv);
+        }
+        let size = Vec2::new(self.width as f32, self.height as f32);
+        let in_pixels = Footprint { sides: footprint.sides.map(|s| s * size) };
+        if in_pixels.sides.iter().all(|s| s.length_squared() <= 1.0) {
+            self.eval(uv)
+        } else {
+            self.mean_over(uv, &in_pixels)
+        }
+    }
+    #[inline(never)]
+    fn mean_over(&self, uv: Vec2, in_pixels: &Footprint) -> Rgb {
+        let size = Vec2::new(self.width as f32, self.height as f32);
+        let pieces = in_pixels.pieces(1.0);
+        // Levels have 2, 4, 8 ... pixels of the picture a side.
+        let level = pieces.width.max(1.0).log2();
+        pieces.mean(uv * size, |at| self.between_levels(at / size, level))
+    }
+    /// `level` 0 is the picture, 1 that of half its size.
+    fn between_levels(&self, uv: Vec2, level: f32) -> Rgb {
+        if level <= 0.0 {
+            return self.eval(uv);
+        }
+        let levels = self.levels.get_or_init(|| levels(self.width, self.height, |i| self.pixels.get(i)));
+        let value = |i: usize| match i.min(levels.len()).checked_sub(1) {
+            None => self.eval(uv),
+            Some(i) => levels[i].eval(uv, self.wrap),
+        };
+        value(level as usize).lerp(value(level as usize + 1), level.fract())
+    }
+}
+
+/// The four pixels around a place, and how far it is from the first of them; as [`Pixels::blend`] wants them. Broken
+/// coordinates give the lower left corner.
+#[inline]
+pub(super) fn place_between(uv: Vec2, width: usize, height: usize, wrap: [Wrap; 2]) -> ([usize; 4], Vec2) {
+    let p = Vec2::new(uv.x * width as f32 - 0.5, (1.0 - uv.y) * height as f32 - 0.5);
+    let p = if p.is_finite() { p } else { Vec2::new(-0.5, height as f32 - 0.5) };
+    let cell = p.floor();
+    let x = [0, 1].map(|d| wrap[0].index((cell.x as i64).saturating_add(d), width));
+    let row = [0, 1].map(|d| width * wrap[1].index((cell.y as i64).saturating_add(d), height));
+    ([row[0] + x[0], row[0] + x[1], row[1] + x[0], row[1] + x[1]], p - cell)
 }
 
 impl Wrap {

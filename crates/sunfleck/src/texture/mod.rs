@@ -4,13 +4,16 @@
 //! one variant of [`Texture`].
 mod checks;
 mod compose;
+mod footprint;
 mod image;
 mod noise;
 mod pixels;
+mod pyramid;
 mod value;
 
 pub use checks::{Checkerboard, Dots};
 pub use compose::{Channel, Mapped, Mix, Product, Threshold, UvMap, UvSet, VertexColour};
+pub use footprint::{Cone, Footprint};
 pub use image::{ImageTexture, Wrap};
 pub use noise::{Noise, NoiseKind};
 pub use value::Scalar;
@@ -36,6 +39,8 @@ pub struct Lookup<'s> {
     pub lambda: Wavelengths,
     /// What else the surface knows here.
     pub attributes: VertexAttributes,
+    /// How much of the surface colours are the mean of.
+    pub footprint: Footprint,
 }
 
 /// What a mesh may know at its vertices, interpolated.
@@ -56,20 +61,42 @@ impl Default for VertexAttributes {
 impl<'s> Lookup<'s> {
     /// At texture coordinates `uv` and at the point `p` of a surface that knows nothing else.
     pub fn new(textures: &'s [Texture], uv: Vec2, p: Vec3, lambda: Wavelengths) -> Self {
-        Self { textures, uv, p, lambda, attributes: VertexAttributes::default() }
+        let (attributes, footprint) = (VertexAttributes::default(), Footprint::POINT);
+        Self { textures, uv, p, lambda, attributes, footprint }
     }
 }
 
 impl Lookup<'_> {
-    /// The colour of texture `id` here, at the wavelengths of the pass.
+    /// The colour of texture `id` here, at the wavelengths of the pass: the mean over the footprint.
     #[inline]
     pub fn spectrum(&self, id: TextureId) -> Spectrum {
         self.value(id)
     }
-    /// The numbers of texture `id` here, as the scene gives them: for what is no colour of light.
+    /// The numbers of texture `id` here, as the scene gives them: for what is no colour of light. Of the very point, whatever
+    /// the footprint is: what a surface of the mean roughness does is not the mean of what it does, nor with normals or heights.
     #[inline]
     pub fn rgb(&self, id: TextureId) -> Rgb {
-        self.value(id)
+        self.of_point(id)
+    }
+    /// As [`Lookup::spectrum`], of the very point: for what light is not in proportion to.
+    #[inline]
+    pub fn spectrum_of_point(&self, id: TextureId) -> Spectrum {
+        self.of_point(id)
+    }
+    #[inline]
+    fn of_point<V: Value>(&self, id: TextureId) -> V {
+        if self.footprint.is_point() { self.value(id) } else { Self { footprint: Footprint::POINT, ..*self }.value(id) }
+    }
+    /// The same place for looking at several textures whose values are multiplied: a point if more than one of them varies, as
+    /// the mean of a product is no product of means.
+    #[inline]
+    fn for_product(&self, of: &[TextureId]) -> Self {
+        let is_even = |id: &TextureId| matches!(self.textures[id.0 as usize], Texture::Constant(_));
+        if of.iter().filter(|id| !is_even(id)).count() > 1 {
+            Self { footprint: Footprint::POINT, ..*self }
+        } else {
+            *self
+        }
     }
     /// The number `s` here.
     #[inline]
@@ -118,7 +145,7 @@ impl Texture {
     fn value<V: Value>(&self, at: &Lookup) -> V {
         match self {
             Self::Constant(c) => V::colour(c, at.lambda),
-            Self::Image(i) => V::pixel(i.eval(at.uv), at.lambda),
+            Self::Image(i) => V::pixel(i.filtered(at.uv, &at.footprint), at.lambda),
             Self::Mapped(t) => t.value(at),
             Self::Product(t) => t.value(at),
             Self::Mix(t) => t.value(at),
@@ -133,6 +160,10 @@ impl Texture {
     /// Whether it looks itself at what only a mesh's vertices know: see [`VertexAttributes`].
     pub(crate) fn asks_vertices(&self) -> bool {
         matches!(self, Self::Vertex(_) | Self::Mapped(Mapped { set: UvSet::Second, .. }))
+    }
+    /// Whether its mean over a footprint is more than its value at a point, if one that it is made of has such means.
+    pub(crate) fn has_means(&self) -> bool {
+        matches!(self, Self::Image(_) | Self::Checkerboard(_))
     }
     /// The textures it is made of.
     pub fn parts(&self) -> Vec<TextureId> {

@@ -7,6 +7,7 @@
 //! is lost, no lamp is ever seen much brighter than it looks, and the tree stays small.
 use crate::{
     bsdf::Transport,
+    math::Ray,
     medium::Inside,
     sampler::Sampler,
     scene::{Interaction, Scattered, World},
@@ -34,6 +35,7 @@ struct Branch {
 /// Where a camera ray met a mirror or glass first.
 pub(super) struct First {
     at: Interaction,
+    ray: Ray,
     /// Throughput that arrives.
     beta: Spectrum,
     inside: Inside,
@@ -42,12 +44,13 @@ pub(super) struct First {
 impl First {
     /// `a`, of the camera ray itself.
     pub(super) fn new(a: &Arrival) -> Self {
-        Self { at: *a.at, beta: a.beta, inside: *a.inside }
+        Self { at: *a.at, ray: *a.ray, beta: a.beta, inside: *a.inside }
     }
     fn arrival(&self) -> Arrival<'_> {
-        let Self { at, beta, inside } = self;
+        let Self { at, ray, beta, inside } = self;
         Arrival {
             at,
+            ray,
             beta: *beta,
             departed: Spectrum::ONE,
             scatterings: 0,

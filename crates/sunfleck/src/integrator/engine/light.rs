@@ -9,10 +9,13 @@ use super::{
     vertex::{LightVertex, Photon, Vertices},
 };
 use crate::{
-    bsdf::Transport,
+    bsdf::{Lobes, Transport},
     camera::{CameraSample, Project},
     film::{Counts, FilmSpec, PassImage, Splat, Splats},
-    integrator::{Pass, eye_ray::lens_point},
+    integrator::{
+        Pass,
+        eye_ray::{lens_point, seen_from_lens},
+    },
     photon::{Emission, Radii, RadiusMap, Source, Span},
     sampler::{Domain, Sampler},
     scene::{Interaction, Scattered, World},
@@ -208,10 +211,11 @@ impl Visit for Shine<'_, '_> {
         if a.at.widest >= rule.least && self.shower.keep.takes(a.scatterings, a.caustic) {
             self.deposit(a, &sums);
         }
-        if !a.at.is_connectible() {
+        // What is black here may be seen as the mean over a pixel.
+        if a.at.widest == Lobes::Delta {
             return Step::On;
         }
-        if rule.on.connect {
+        if rule.on.connect && a.at.is_connectible() {
             self.out.vertices.push(self.shower.world, a, &sums, self.merges);
         }
         if rule.images(a.scatterings) {
@@ -250,20 +254,29 @@ impl Shine<'_, '_> {
     fn splat(&mut self, a: &Arrival, s: &Sums, u_lens: Vec2) {
         let shower = self.shower;
         let Some(c) = shower.world.camera().sample_wi(a.at.p, u_lens) else { return };
-        let value = a.beta * a.at.f_cos(c.wi, Transport::Flux) * (c.importance * shower.share / shower.rule.paths);
+        // The camera's samplers see the same there, so that the weights of a path sum to one.
+        let seen;
+        let at = if shower.limits.filter && shower.world.has_means() {
+            seen = seen_from_lens(shower.world, a, &c, shower.spec, shower.pass.index);
+            &seen
+        } else {
+            a.at
+        };
+        let value = a.beta * at.f_cos(c.wi, Transport::Flux) * (c.importance * shower.share / shower.rule.paths);
         if value.is_black() || shower.only.is_some_and(|o| o.technique != Technique::LightImage) {
             return;
         }
         self.out.counts.rays += 1;
-        let Some(passed) = shower.world.passed(a.at, &a.at.spawn_to(c.wi, c.p)) else { return };
-        let weight = if shower.only.is_some_and(|o| !o.weighted) { 1.0 } else { self.light_image_weight(a, s, &c) };
+        let Some(passed) = shower.world.passed(at, &at.spawn_to(c.wi, c.p)) else { return };
+        let weight = if shower.only.is_some_and(|o| !o.weighted) { 1.0 } else { self.light_image_weight(a, at, s, &c) };
         self.out
             .splats
             .push(Splat { raster: c.raster, value: (value * passed * weight).to_rgb(shower.world.lambda()) });
     }
-    fn light_image_weight(&self, a: &Arrival, s: &Sums, c: &CameraSample) -> f32 {
+    fn light_image_weight(&self, a: &Arrival, at: &Interaction, s: &Sums, c: &CameraSample) -> f32 {
         let shower = self.shower;
         let eta = shower.rule.eta(shower.shrink * shower.radii.at(c.raster));
-        shower.rule.lens(&s.into(), a.at, c, shower.spec.pixels(), self.merges, eta)
+        let merges = shower.rule.merges(at, a.scatterings, a.caustic);
+        shower.rule.lens(&s.into(), at, c, shower.spec.pixels(), merges, eta)
     }
 }

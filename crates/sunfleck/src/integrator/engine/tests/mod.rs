@@ -91,8 +91,10 @@ impl Setting<'_> {
             caustic = v.delta || !at.gathers(self.rule.least);
             let (beta, pdf, delta, all_delta, dispersed, travelled) = (Spectrum::ONE, 1.0, v.delta, false, false, 0.0);
             let (departed, inside) = (beta, &Inside::NOTHING);
+            let ray = &crate::math::Ray::new(at.p + at.wo, -at.wo);
             let arrival = Arrival {
                 at: &at,
+                ray,
                 beta,
                 departed,
                 scatterings,
