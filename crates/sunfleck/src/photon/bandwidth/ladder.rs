@@ -269,8 +269,8 @@ impl Ladder<'_> {
             }
             let value = f * photon.flux * seen.beta * Spectrum::join(seen.dispersed, photon.dispersed);
             let value = value.to_rgb(Wavelengths::Rgb).element_sum() / 3.0 * stride as f32;
-            for r in 0..=ring {
-                let part = value * kernel.shape(d2, r2[r]) / (PI * r2[r]);
+            for (r, &r2) in r2.iter().enumerate().take(ring + 1) {
+                let part = value * kernel.shape(d2, r2) / (PI * r2);
                 for family in 0..=usize::from(photon.caustic) {
                     out.radiance[family][r] += part;
                     if r < CANDIDATES {
