@@ -17,9 +17,41 @@ const RUNGS: usize = CANDIDATES + 1;
 /// The bias of a rung over what it is off the next, where light is smooth: 1 / (1 - 1/STEP²).
 const BIAS_OVER_STEP: f64 = 4.0 / 3.0;
 
-/// Photons of a set that are looked at between one rung and the next at a spot; of more, one in so many stands for all. They are
-/// met place by place, so that their number is kept, and with it most of what it scatters from set to set.
+/// Photons of a set that are looked at between one rung and the next at a spot. Of more, one in so many stands for all: where it
+/// lies is not left to that, so that what remains of chance is how unlike they are in flux and direction.
 const PLENTY: u32 = 128;
+
+/// The photons between one rung and the next.
+#[derive(Clone, Copy, Default)]
+struct Ring {
+    met: u32,
+    /// How many were asked about so far.
+    asked: u32,
+    /// Sums of the kernels of the rungs over all photons, and over those that were taken.
+    shapes: [f32; RUNGS],
+    taken_shapes: [f32; RUNGS],
+    /// The same of their light, by family; and their number.
+    light: [[f32; RUNGS]; FAMILIES],
+    photons: [u32; FAMILIES],
+}
+
+impl Ring {
+    /// One in how many is taken.
+    fn stride(&self) -> u32 {
+        self.met.div_ceil(PLENTY).max(1)
+    }
+    /// Whether the next photon is taken, in the order in which they are met, which is that of places.
+    fn takes(&mut self) -> bool {
+        let stride = self.stride();
+        self.asked += 1;
+        self.asked % stride == stride / 2
+    }
+    /// Light of all photons by a rung's kernel, after those that were taken.
+    fn all_light(&self, family: usize, rung: usize) -> f32 {
+        let taken = self.taken_shapes[rung];
+        if taken > 0.0 { self.light[family][rung] * (self.shapes[rung] / taken) } else { 0.0 }
+    }
+}
 
 /// Sets of photons that share nothing, to try radii on. They do not depend on radii, so all trials share them.
 pub(super) struct Sets {
@@ -251,34 +283,40 @@ impl Ladder<'_> {
         let top = spot.radius * self.top;
         let r2: [f32; RUNGS] = std::array::from_fn(|r| (top * STEP.powi(-(r as i32))).powi(2));
         let ring = |d2: f32| (1..RUNGS).take_while(|r| d2 <= r2[*r]).count();
-        let mut met = [0u32; RUNGS];
-        map.within(seen.at.p, top, |_, d2| met[ring(d2)] += 1);
-        let strides = met.map(|n| n.div_ceil(PLENTY).max(1));
-        let mut met = [0u32; RUNGS];
+        let shapes = |d2: f32, ring: usize| r2.iter().take(ring + 1).map(move |r2| kernel.shape(d2, *r2)).enumerate();
+        let mut rings = [Ring::default(); RUNGS];
+        map.within(seen.at.p, top, |_, d2| {
+            let i = ring(d2);
+            rings[i].met += 1;
+            shapes(d2, i).for_each(|(r, shape)| rings[i].shapes[r] += shape);
+        });
         let at = seen.at.toward_eye();
         map.within(seen.at.p, top, |photon: &Photon, d2| {
-            let ring = ring(d2);
-            let stride = strides[ring];
-            met[ring] += 1;
-            if met[ring] % stride != stride / 2 {
+            let i = ring(d2);
+            let ring = &mut rings[i];
+            if !ring.takes() {
                 return;
             }
+            shapes(d2, i).for_each(|(r, shape)| ring.taken_shapes[r] += shape);
             let f = at.f_photon(photon.wi);
             if u32::from(photon.scatterings) > most || f.is_black() {
                 return;
             }
             let value = f * photon.flux * seen.beta * Spectrum::join(seen.dispersed, photon.dispersed);
-            let value = value.to_rgb(Wavelengths::Rgb).element_sum() / 3.0 * stride as f32;
-            for (r, &r2) in r2.iter().enumerate().take(ring + 1) {
-                let part = value * kernel.shape(d2, r2) / (PI * r2);
-                for family in 0..=usize::from(photon.caustic) {
-                    out.radiance[family][r] += part;
-                    if r < CANDIDATES {
-                        out.photons[family][r] += stride;
-                    }
-                }
+            let value = value.to_rgb(Wavelengths::Rgb).element_sum() / 3.0;
+            for family in 0..=usize::from(photon.caustic) {
+                ring.photons[family] += 1;
+                shapes(d2, i).for_each(|(r, shape)| ring.light[family][r] += value * shape);
             }
         });
+        for (i, ring) in rings.iter().enumerate() {
+            for (family, r) in (0..FAMILIES).flat_map(|family| (0..=i).map(move |r| (family, r))) {
+                out.radiance[family][r] += ring.all_light(family, r) / (PI * r2[r]);
+                if r < CANDIDATES {
+                    out.photons[family][r] += ring.photons[family] * ring.stride();
+                }
+            }
+        }
         out
     }
 }
