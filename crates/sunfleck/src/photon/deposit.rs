@@ -27,7 +27,7 @@ pub struct Photon {
     pub caustic: bool,
 }
 
-/// Which arrivals are kept. All rules keep photons at connectible surfaces only: nothing could gather them elsewhere.
+/// Which arrivals are kept. All rules keep photons at surfaces that gather only ([`Limits::gathers`]).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Keep {
     /// Every one: paths `L (S|D)*`.

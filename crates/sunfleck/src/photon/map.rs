@@ -16,28 +16,29 @@ pub struct RadiusMap<P = Photon> {
 pub struct Span {
     /// In the middle.
     pub typical: f32,
-    /// Hardly any is smaller.
+    /// Hardly any is smaller: there, cells would hold too many photons.
     pub least: f32,
-    /// Hardly any is larger.
+    /// None is larger: among cells that are far too narrow, a single query takes as long as a thousand.
     pub most: f32,
 }
 
 impl Span {
-    /// The radii of most of `radii`, of which there are some; all positive and finite.
+    /// The span of `radii`, of which there are some; all positive and finite.
     pub fn of(mut radii: Vec<f32>) -> Self {
         let last = radii.len() - 1;
         let few = (FEW * last as f32) as usize;
         let mut at = |i: usize| *radii.select_nth_unstable_by(i, f32::total_cmp).1;
-        Self { typical: at(last.div_ceil(2)), least: at(few), most: at(last - few) }
+        Self { typical: at(last.div_ceil(2)), least: at(few), most: at(last) }
     }
     /// One radius.
     pub fn only(radius: f32) -> Self {
         Self { typical: radius, least: radius, most: radius }
     }
     /// The typical radius alone where so many photons serve so few gathers that sorting them for several levels takes longer than
-    /// these save.
+    /// these save, unless radii differ too much for one level.
     pub fn if_worth_it(self, photons: usize, gathers: usize) -> Self {
-        if photons > PHOTONS_A_GATHER * gathers { Self::only(self.typical) } else { self }
+        let alike = self.most.max(self.typical * self.typical / self.least) <= ALIKE * self.typical;
+        if alike && photons > PHOTONS_A_GATHER * gathers { Self::only(self.typical) } else { self }
     }
     /// Every radius times `factor`.
     pub fn scaled(self, factor: f32) -> Self {
@@ -57,7 +58,9 @@ impl Span {
 /// With one photon for each gather, levels saved 15 to 20 % of a pass whose radii differed by a factor of 256; with 30 and narrow
 /// radii, they cost up to 32 %.
 const PHOTONS_A_GATHER: usize = 4;
-/// Part of the radii that may lie beyond a [`Span`] on either side.
+/// Radii that differ by no more than this from the typical one get along with its cells.
+const ALIKE: f32 = 16.0;
+/// Part of the radii that may be smaller than a [`Span`] says.
 const FEW: f32 = 0.02;
 /// Width of a cell over the radius of a query.
 const CELL: f32 = 1.5;
@@ -168,19 +171,22 @@ mod tests {
 
     #[test]
     fn many_photons_for_few_gathers_are_sorted_for_one_radius() {
-        let span = Span { typical: 2.0, least: 0.1, most: 9.0 };
+        let span = Span { typical: 2.0, least: 0.13, most: 31.0 };
         assert_eq!(span.if_worth_it(1000, 250), span);
         assert_eq!(span.if_worth_it(1001, 250), Span::only(2.0));
+        for unlike in [Span { least: 0.12, ..span }, Span { most: 33.0, ..span }] {
+            assert_eq!(unlike.if_worth_it(1001, 250), unlike);
+        }
     }
 
     #[test]
-    fn a_span_leaves_out_the_few_and_far() {
+    fn a_span_leaves_out_the_few_that_are_small() {
         let radii = (0..1000).map(|i| match i % 100 {
             0 => 1e-6,
             1 => 1e6,
             i => i as f32,
         });
-        assert_eq!(Span::of(radii.collect()), Span { typical: 51.0, least: 2.0, most: 99.0 });
+        assert_eq!(Span::of(radii.collect()), Span { typical: 51.0, least: 2.0, most: 1e6 });
         assert_eq!(Span::of(vec![7.0]), Span::only(7.0));
     }
 }

@@ -26,8 +26,9 @@ const TILE: u32 = 8;
 const MAX_TILES: u32 = 128;
 /// Camera paths a tile.
 const SAMPLES: u64 = 4;
-/// A radius is no more than this many times larger or smaller than the median of the picture.
-const SPREAD: f32 = 16.0;
+/// A radius is no more than this many times larger or smaller than the median of the picture: far more than lies between a thing
+/// on a table and the wall of a hall, and little enough for an index of a few levels.
+const SPREAD: f32 = 1024.0;
 /// A pixel seen through glass covers at most so many times more or less than what its distance alone says.
 const LENS: f32 = 16.0;
 

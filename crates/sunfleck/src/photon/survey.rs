@@ -10,7 +10,7 @@ use crate::{
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// A place where a camera path first meets a connectible surface.
+/// A place where a camera path first meets a surface that gathers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sighting {
     /// Position.
@@ -22,7 +22,7 @@ pub struct Sighting {
 /// Camera paths of a survey: medians to about 2 %.
 const PATHS: u64 = 1024;
 
-/// Follows camera paths, spread over the picture, through delta surfaces to the first connectible one. Paths that meet
+/// Follows camera paths, spread over the picture, to the first surface that gathers. Paths that meet
 /// none are left out.
 pub fn survey(scene: &Scene, spec: FilmSpec, limits: &Limits, seed: u64) -> Vec<Sighting> {
     let world = scene.world(Wavelengths::Rgb, MID_SHUTTER);

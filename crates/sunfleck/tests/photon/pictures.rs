@@ -242,3 +242,34 @@ fn unified_leaves_to_its_path_tracer_what_no_photon_reaches() {
     let (want, got) = (mean(&want), mean(&got));
     assert!((got / want - 1.0).abs().max_element() < 0.01, "{got} instead of {want}");
 }
+
+/// A ball of glass over a little table, under a lamp, before an eye 30 cm away; perhaps with a wall a hundred metres behind.
+fn table_before(wall: bool) -> Scene {
+    let mut b = SceneBuilder::new();
+    let grey = matt(&mut b, Rgb::splat(0.6));
+    b.add(patch([-0.05, -0.08, 0.2], [0.0, 0.0, 0.2], [0.1, 0.0, 0.0]), grey);
+    if wall {
+        b.add(patch([-200.0, -200.0, 100.0], [0.0, 400.0, 0.0], [400.0, 0.0, 0.0]), grey);
+    }
+    let clear = glass(&mut b, 1.5);
+    b.add(ball([0.0, -0.04, 0.3], 0.03), clear);
+    let black = matt(&mut b, Rgb::ZERO);
+    let shape = ball([0.05, 0.12, 0.3], 0.01);
+    b.surface(SurfaceDef { shape, material: black, emission: Some((Rgb::splat(40.0).into(), Sides::One)) });
+    b.camera(eye(Vec3::ZERO, Vec3::Z, 50.0));
+    b.build().expect("a scene")
+}
+
+#[test]
+fn a_caustic_close_up_is_sharp_before_a_far_wall_too() {
+    let brightest = |scene: &Scene, name: &str| {
+        let film = shoot(scene, &*make(name, ""), spec(192), 24);
+        // Below the ball, where there is no lamp.
+        film.mean()[112 * 192..].iter().map(|p| p.element_sum() / 3.0).fold(0.0, f32::max)
+    };
+    let (alone, walled) = (table_before(false), table_before(true));
+    for name in ["ppm", "unified"] {
+        let (want, found) = (brightest(&alone, name), brightest(&walled, name));
+        assert!((found / want - 1.0).abs() < 0.3, "{name}: {found} before a wall, {want} before nothing");
+    }
+}

@@ -254,8 +254,9 @@ impl Ladder<'_> {
     pub(super) fn climb(&self, radii: &Radii, spots: &[Spot]) -> Measured {
         let Sets { paths, catches } = self.sets;
         let mut sums = vec![Sums::default(); spots.len()];
+        let span = radii.span().scaled(self.top);
         for catch in catches {
-            let map = RadiusMap::new(&catch.positions, &catch.photons, radii.typical() * self.top);
+            let map = RadiusMap::spanning(&catch.positions, &catch.photons, span);
             sums.par_iter_mut().zip(spots).for_each(|(sum, spot)| {
                 sum.add(&self.gather(&map, spot));
             });

@@ -30,7 +30,7 @@ pub(super) fn marks(audit: &Audit, world: &World, spec: FilmSpec, page: &Page) -
     if photons.is_empty() {
         return Vec::new();
     }
-    let map = RadiusMap::new(&page.positions, &photons, audit.radii.typical());
+    let map = RadiusMap::spanning(&page.positions, &photons, audit.radii.span());
     let looks = (spec.pixels() as u64).clamp(*LOOKS.start(), *LOOKS.end());
     let none = || vec![false; photons.len()];
     // A mark that is set twice is set: the order does not matter.
